@@ -1,0 +1,9 @@
+//! The laws that come with the program, one file each.
+
+mod coulomb;
+mod frictionless;
+mod tresca;
+
+pub use coulomb::Coulomb;
+pub use frictionless::Frictionless;
+pub use tresca::Tresca;

@@ -1,0 +1,123 @@
+//! Dual numbers: a value with its derivatives with respect to pressure and slip. The only file that names `num-dual`.
+//!
+//! `num-dual` compares and branches on the value alone, and at a tie its `abs` and `signum` follow the sign bit of zero (`+0.0` and
+//! `-0.0` differ), its `tanh` overflows to NaN, and its `powf` is NaN at zero. A law therefore takes the functions of this file:
+//! **at a tie (`|0|`, `min(a, a)`, `max(a, a)`) the derivative is the mean of the two branches**, so a law keeps its mirror
+//! symmetry in the slip exactly, and the derivative stays an element of Clarke's generalised one (what a semismooth Newton needs).
+//! NaN passes through all of them: a failed state update is never hidden by a cap.
+
+use nalgebra::Vector2;
+use num_dual::{Derivative, DualSVec64};
+
+/// The methods of dual numbers (`exp`, `ln`, `asinh`, `recip`, ...); bring it into scope to write a law.
+pub use num_dual::DualNum;
+
+/// A number with its derivatives with respect to `[pressure, slip increment]`; units are those of the value per stress and per length.
+pub type Dual = DualSVec64<2>;
+
+/// The independent variable pressure: derivative `[1, 0]`.
+pub fn pressure_dual(value: f64) -> Dual {
+    Dual::from_re(value).derivative(0)
+}
+
+/// The independent variable slip increment: derivative `[0, 1]`.
+pub fn slip_dual(value: f64) -> Dual {
+    Dual::from_re(value).derivative(1)
+}
+
+/// A number that depends on neither pressure nor slip.
+pub fn constant(value: f64) -> Dual {
+    Dual::from_re(value)
+}
+
+/// A value with given derivatives with respect to `[pressure, slip]`.
+pub fn with_derivatives(value: f64, derivatives: [f64; 2]) -> Dual {
+    Dual::new(value, Derivative::some(Vector2::from(derivatives)))
+}
+
+/// Value and derivatives with respect to `[pressure, slip]`.
+pub fn derivatives(x: &Dual) -> (f64, [f64; 2]) {
+    (x.re, x.eps.0.map_or([0.0; 2], |d| [d[0], d[1]]))
+}
+
+/// `|x|`; derivative `0` at `x = 0`.
+pub fn abs(x: Dual) -> Dual {
+    if x.re == 0.0 {
+        constant(0.0)
+    } else if x.re < 0.0 {
+        -x
+    } else {
+        x
+    }
+}
+
+/// Larger of the two; mean derivative at a tie.
+pub fn max(a: Dual, b: Dual) -> Dual {
+    if a.re == b.re {
+        (a + b) * 0.5
+    } else if a.re > b.re || a.re.is_nan() {
+        a
+    } else {
+        b
+    }
+}
+
+/// Smaller of the two; mean derivative at a tie.
+pub fn min(a: Dual, b: Dual) -> Dual {
+    -max(-a, -b)
+}
+
+/// `tanh x` without overflow: beyond |x| = 400 the derivative (4e-348) underflows and value is +-1.
+pub fn tanh(x: Dual) -> Dual {
+    if x.re.abs() > 400.0 { constant(x.re.signum()) } else { chain(x, x.re.tanh(), x.re.cosh().powi(-2)) }
+}
+
+/// `x^n` for `x >= 0`, `n > 0`. At `x = 0` the value is 0 and the derivative 0 for `n > 1`, 1 for `n = 1`, infinite for `n < 1`
+/// (regularise such a law: `(x + x0)^n - x0^n`).
+pub fn power(x: Dual, n: f64) -> Dual {
+    chain(x, x.re.powf(n), n * x.re.powf(n - 1.0))
+}
+
+/// A function of `x` of which value and derivative are known.
+pub fn chain(x: Dual, value: f64, slope: f64) -> Dual {
+    Dual::new(value, x.eps * slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ties_take_the_mean_branch_whatever_the_sign_of_zero() {
+        for zero in [0.0, -0.0] {
+            assert_eq!(derivatives(&abs(slip_dual(zero))), (0.0, [0.0, 0.0]));
+        }
+        let (p, s) = (pressure_dual(2.0), slip_dual(2.0));
+        assert_eq!(derivatives(&max(p, s)), (2.0, [0.5, 0.5]));
+        assert_eq!(derivatives(&min(p, s)), (2.0, [0.5, 0.5]));
+        assert_eq!(derivatives(&min(p * 2.0, s)), (2.0, [0.0, 1.0]));
+    }
+
+    #[test]
+    fn nan_is_not_hidden_by_min_and_max() {
+        let nan = constant(f64::NAN);
+        for x in [
+            max(nan, constant(1.0)),
+            max(constant(1.0), nan),
+            min(nan, constant(1.0)),
+            min(constant(1.0), nan),
+            abs(nan),
+        ] {
+            assert!(x.re.is_nan());
+        }
+    }
+
+    #[test]
+    fn tanh_and_power_survive_the_extremes() {
+        assert_eq!(derivatives(&tanh(slip_dual(-1e300))), (-1.0, [0.0, 0.0]));
+        let (value, slope) = derivatives(&tanh(slip_dual(0.5)));
+        assert!((value - 0.5f64.tanh()).abs() < 1e-15 && (slope[1] - (1.0 - value * value)).abs() < 1e-15);
+        assert_eq!(derivatives(&power(pressure_dual(0.0), 1.5)), (0.0, [0.0, 0.0]));
+        assert_eq!(derivatives(&power(pressure_dual(4.0), 1.5)), (8.0, [3.0, 0.0]));
+    }
+}

@@ -1,0 +1,156 @@
+//! Element integrals of one body: internal forces, energy and symmetric stiffness.
+
+use nalgebra::Matrix2;
+
+use super::Material;
+use crate::geometry::{Patch, Point};
+use crate::math::gauss;
+
+/// Reference shape gradients of a patch at its quadrature points, computed once.
+#[derive(Clone, Debug)]
+pub struct Elements {
+    /// Control points of each element, `nodes_per_element` in a row.
+    nodes: Vec<usize>,
+    nodes_per_element: usize,
+    points_per_element: usize,
+    /// `dN/dX`, ordered element, quadrature point, node.
+    gradients: Vec<[f64; 2]>,
+    /// Reference area belonging to each quadrature point.
+    weights: Vec<f64>,
+}
+
+/// What one element contributes.
+pub struct BulkForces<'a> {
+    /// Control points of the element.
+    pub nodes: &'a [usize],
+    /// Internal force at each node.
+    pub forces: &'a [Point],
+    /// Row-major stiffness, `2 nodes` square, unknowns ordered node by node; empty if not asked for.
+    pub stiffness: &'a [f64],
+}
+
+impl Elements {
+    /// Gauss points: `degree + 1` in each direction.
+    ///
+    /// Returns `None` where the map from parameters to the reference body is not invertible (Jacobian not positive).
+    pub fn new(patch: &Patch) -> Option<Self> {
+        let [nu, nv] = patch.elements();
+        let rules = [gauss(patch.basis[0].degree() + 1), gauss(patch.basis[1].degree() + 1)];
+        let points_per_element = rules[0].points.len() * rules[1].points.len();
+        let nodes_per_element = (patch.basis[0].degree() + 1) * (patch.basis[1].degree() + 1);
+        let mut this =
+            Self { nodes: vec![], nodes_per_element, points_per_element, gradients: vec![], weights: vec![] };
+        for element in (0..nv).flat_map(|j| (0..nu).map(move |i| [i, j])) {
+            let [[u0, u1], [v0, v1]] = patch.span_box(element);
+            for (eta, wv) in rules[1].points.iter().zip(&rules[1].weights) {
+                for (xi, wu) in rules[0].points.iter().zip(&rules[0].weights) {
+                    let uv = [u0 + xi * (u1 - u0), v0 + eta * (v1 - v0)];
+                    this.add_point(patch, element, uv, wu * wv * (u1 - u0) * (v1 - v0))?;
+                }
+            }
+            let nodes = patch.shape(element, [u0, v0]).nodes;
+            this.nodes.extend(nodes);
+        }
+        Some(this)
+    }
+
+    fn add_point(&mut self, patch: &Patch, element: [usize; 2], uv: [f64; 2], weight: f64) -> Option<()> {
+        let shape = patch.shape(element, uv);
+        let mut jacobian = Matrix2::zeros();
+        for (node, gradient) in shape.nodes.iter().zip(&shape.gradients) {
+            let x = patch.points[*node];
+            jacobian += Matrix2::new(x.x * gradient[0], x.x * gradient[1], x.y * gradient[0], x.y * gradient[1]);
+        }
+        let determinant = jacobian.determinant();
+        let inverse = jacobian.try_inverse().filter(|_| determinant > 0.0)?;
+        self.weights.push(weight * determinant);
+        for g in &shape.gradients {
+            self.gradients.push([
+                g[0] * inverse[(0, 0)] + g[1] * inverse[(1, 0)],
+                g[0] * inverse[(0, 1)] + g[1] * inverse[(1, 1)],
+            ]);
+        }
+        Some(())
+    }
+
+    /// Number of elements.
+    pub fn count(&self) -> usize {
+        self.nodes.len() / self.nodes_per_element
+    }
+
+    /// Control points of element `e`.
+    pub fn nodes(&self, e: usize) -> &[usize] {
+        &self.nodes[e * self.nodes_per_element..(e + 1) * self.nodes_per_element]
+    }
+
+    /// Reference area of the body.
+    pub fn area(&self) -> f64 {
+        self.weights.iter().sum()
+    }
+
+    /// Integrates all elements for the displacement `u` of the control points and hands each to `take`.
+    /// Returns the strain energy, or `None` where `det F <= 0` somewhere.
+    pub fn integrate(
+        &self,
+        material: &dyn Material,
+        u: &[Point],
+        stiffness: bool,
+        mut take: impl FnMut(usize, BulkForces),
+    ) -> Option<f64> {
+        let n = self.nodes_per_element;
+        let mut forces = vec![Point::zeros(); n];
+        let mut k = vec![0.0; if stiffness { 4 * n * n } else { 0 }];
+        let mut energy = 0.0;
+        for e in 0..self.count() {
+            let nodes = self.nodes(e);
+            forces.fill(Point::zeros());
+            k.fill(0.0);
+            for q in e * self.points_per_element..(e + 1) * self.points_per_element {
+                let gradients = &self.gradients[q * n..(q + 1) * n];
+                let response = material.response(&deformation_gradient(nodes, gradients, u))?;
+                let w = self.weights[q];
+                energy += w * response.energy;
+                for (force, g) in forces.iter_mut().zip(gradients) {
+                    *force += response.stress * Point::new(g[0], g[1]) * w;
+                }
+                if stiffness {
+                    add_stiffness(&mut k, gradients, &response.tangent, w);
+                }
+            }
+            take(e, BulkForces { nodes, forces: &forces, stiffness: &k });
+        }
+        Some(energy)
+    }
+}
+
+/// `F = I + sum_a u_a x dN_a/dX`.
+fn deformation_gradient(nodes: &[usize], gradients: &[[f64; 2]], u: &[Point]) -> Matrix2<f64> {
+    let mut f = [1.0, 0.0, 0.0, 1.0];
+    for (&node, g) in nodes.iter().zip(gradients) {
+        let d = u[node];
+        f[0] += d.x * g[0];
+        f[1] += d.x * g[1];
+        f[2] += d.y * g[0];
+        f[3] += d.y * g[1];
+    }
+    Matrix2::new(f[0], f[1], f[2], f[3])
+}
+
+/// Adds `w dN_a,J A_iJkL dN_b,L`.
+fn add_stiffness(k: &mut [f64], gradients: &[[f64; 2]], a: &[[f64; 4]; 4], w: f64) {
+    let n = 2 * gradients.len();
+    for (node_a, ga) in gradients.iter().enumerate() {
+        for i in 0..2 {
+            // c_kL = w dN_a,J A_iJkL
+            let mut c = [0.0; 4];
+            for (kl, value) in c.iter_mut().enumerate() {
+                *value = w * (ga[0] * a[2 * i][kl] + ga[1] * a[2 * i + 1][kl]);
+            }
+            let row = &mut k[(2 * node_a + i) * n..(2 * node_a + i + 1) * n];
+            for (pair, gb) in row.chunks_exact_mut(2).zip(gradients) {
+                pair[0] += c[0] * gb[0] + c[1] * gb[1];
+                pair[1] += c[2] * gb[0] + c[3] * gb[1];
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Commands, their help, and what the exit code of each outcome is.
+
+mod check;
+mod laws;
+mod outcome;
+mod run;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use asperity::scene::Scene;
+use clap::{Args, Parser, Subcommand};
+
+use outcome::{Exit, Failure, report, say};
+
+const AFTER_HELP: &str = "\
+Examples:
+  asperity check examples/two-asperities.toml
+  asperity run examples/two-asperities.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
+  asperity laws coulomb
+
+Exit codes:
+  0  done
+  1  internal error
+  2  bad input: nothing was computed, the message names file, line, key and what is allowed
+  3  did not converge: all steps before are kept
+  4  converged, but an audit failed: do not trust the result
+  5  interrupted: all steps before are kept";
+
+/// Large-deformation frictional contact of soft asperities in plane strain.
+///
+/// A scene (TOML) says which bodies touch, how they are moved and which friction law holds between them; a run writes a
+/// folder with tables, fields for ParaView and figures.
+#[derive(Debug, Parser)]
+#[command(version, after_help = AFTER_HELP, max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compute a scene and write a folder of results.
+    ///
+    /// The folder holds history.csv (one row per nominal step), interface.csv, fields/*.vtu with fields.pvd, figures
+    /// and run.json. Ctrl-C stops at the next iteration and keeps everything computed so far (exit code 5).
+    Run(RunArguments),
+    /// Validate a scene and print the model chosen: what is modelled, what is left out and why, sizes.
+    ///
+    /// Nothing is computed and nothing is written. Exit code 2 if the scene cannot be used.
+    Check(SceneArguments),
+    /// List the friction laws linked into this program, or explain one: equation, parameters, units, ranges, reference.
+    Laws {
+        /// Name of a law, as in `law = { type = "NAME" }`.
+        name: Option<String>,
+    },
+    /// Print the JSON schema of a scene.
+    ///
+    /// Editors that know JSON schemas for TOML (for example taplo) complete and check a scene with it:
+    /// asperity schema > scene.schema.json
+    Schema,
+}
+
+/// A scene and what is changed in it.
+#[derive(Debug, Args)]
+struct SceneArguments {
+    /// Scene file (TOML, version = 1).
+    scene: PathBuf,
+    /// Replace one value of the scene, before it is validated. May be repeated.
+    ///
+    /// PATH is a dotted key, entries of an array are numbered from 0; VALUE is TOML, so text needs quotes:
+    /// --set 'contact.0.law.friction=0.1' --set 'body.lower.elements=[160, 40]' --set 'title="fine"'
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    sets: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+struct RunArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Folder of the results; made if it does not exist [default: out/<name of the scene>].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print errors only.
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs a command and turns its outcome into an exit code; errors go to stderr.
+pub fn dispatch(cli: Cli) -> ExitCode {
+    let outcome = match &cli.command {
+        Command::Run(arguments) => run::run(arguments),
+        Command::Check(arguments) => check::check(arguments),
+        Command::Laws { name } => laws::laws(name.as_deref()),
+        Command::Schema => schema(),
+    };
+    report(outcome)
+}
+
+fn schema() -> Result<Exit, Failure> {
+    say(&format!("{:#}\n", Scene::grammar().root()))?;
+    Ok(Exit::Done)
+}

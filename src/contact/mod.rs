@@ -1,0 +1,20 @@
+//! Contact: projection, mortar integration, complementarity, and what the model sees of an interface.
+
+mod assembly;
+mod complementarity;
+mod integration;
+mod interface;
+mod kinematics;
+mod mortar;
+mod point;
+mod projection;
+mod slip;
+
+pub use complementarity::{SiteAnswer, SiteInput, complementarity};
+pub use interface::{
+    Configuration, ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial,
+    Projection, SiteRecord, Sites,
+};
+pub use kinematics::{Frame, Orientation, SLOTS, SlotMatrix, Slots};
+pub use mortar::{Mortar, Numerics};
+pub use projection::{Partner, Seeker, Target};

@@ -1,0 +1,272 @@
+//! Mortar contact of two curves: sites, multipliers and the evaluation of one pair.
+//!
+//! Residual (design section 4), with sites `a`, multipliers read as `p_a = sum_A M_aA p_A`:
+//!
+//! ```text
+//! R_u  = sum_a w_a ( -p^_a dg_a/du + q^_a (virtual slip)_a )
+//! R_pA = sum_a M_aA w_a (p^_a - p_a)/r_N            R_qA = sum_a M_aA w_a (q^_a - q_a)/r_T
+//! ```
+//!
+//! A site is a weighted group of quadrature points: `w_a g_a = sum_i c_ai g_i`. At `quadrature` sites the group is the
+//! point itself and `M_aA = R_A`; at `nodal` sites it is the support of control point `A`, `c_ai = w_i R_A`, and `M = 1`.
+
+use std::sync::Arc;
+
+use asperity_laws::FrictionLaw;
+
+use crate::geometry::{Basis, Curve};
+use crate::math::{GaussRule, gauss};
+
+use super::assembly::Assembly;
+use super::complementarity::{SiteAnswer, SiteInput, complementarity};
+use super::integration::{EdgeFunctions, QuadraturePoint, mortar_cuts};
+use super::interface::{
+    ContactDiscretization, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection, Sites,
+};
+use super::kinematics::Orientation;
+use super::point::{Curves, PointState};
+use super::projection::Target;
+
+/// Numerical choices of a pair, all resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numerics {
+    /// Where the conditions hold.
+    pub sites: Sites,
+    /// How partners are found.
+    pub projection: Projection,
+    /// How the edge is cut.
+    pub integration: Integration,
+    /// Gauss points per element or segment.
+    pub points: usize,
+    /// Augmentation of the pressure in units of `E/h`.
+    pub r: f64,
+    /// Augmentation of the traction in units of `E/h`.
+    pub r_tangential: f64,
+}
+
+/// A mortar pair. See the module documentation.
+#[derive(Debug)]
+pub struct Mortar {
+    nonmortar: Curve,
+    mortar: Curve,
+    multiplier: Option<Arc<dyn Basis>>,
+    law: Option<Arc<dyn FrictionLaw>>,
+    variables: Vec<f64>,
+    numerics: Numerics,
+    orientation: Orientation,
+    rule: GaussRule,
+    path_rule: GaussRule,
+    points: Vec<QuadraturePoint>,
+    /// `E / (length of the span)` for each nonmortar span.
+    stiffness: Vec<f64>,
+    /// `E / (mean length of the spans)`.
+    augmentation: f64,
+    reach: f64,
+}
+
+/// A group of quadrature points at which the conditions hold, and the multipliers it reads.
+pub(super) struct Site {
+    /// `(quadrature point, c_ai)`.
+    pub group: Vec<(usize, f64)>,
+    /// `(multiplier, M_aA)`.
+    pub reads: Vec<(usize, f64)>,
+}
+
+/// A site with its group evaluated.
+pub(super) struct SiteState {
+    pub site: Site,
+    /// `sum_i c_ai` over the points that have a partner; over all points where none has.
+    pub weight: f64,
+    pub gap: f64,
+    pub slip: f64,
+    pub stretch: f64,
+    pub p: f64,
+    pub q: f64,
+    pub r: [f64; 2],
+    pub answer: SiteAnswer,
+}
+
+impl Mortar {
+    /// A pair of curves under a law. `modulus` is the stress scale `E` of the softer body; `multiplier` a basis on the
+    /// spans of the nonmortar curve, by default the functions of the curve itself.
+    pub fn new(
+        nonmortar: Curve,
+        mortar: Curve,
+        law: Arc<dyn FrictionLaw>,
+        multiplier: Option<Arc<dyn Basis>>,
+        numerics: Numerics,
+        modulus: f64,
+    ) -> Self {
+        let rule = gauss(numerics.points);
+        let functions = EdgeFunctions { curve: &nonmortar, multiplier: multiplier.as_deref() };
+        let points = functions.points(&rule, &[]);
+        let mut lengths = vec![0.0; nonmortar.spans()];
+        points.iter().for_each(|p| lengths[p.span] += p.weight);
+        let total: f64 = lengths.iter().sum();
+        let orientation =
+            Orientation { projection: numerics.projection, nonmortar: nonmortar.side, mortar: mortar.side };
+        let variables = law.variables().iter().map(|v| v.initial).collect();
+        Self {
+            path_rule: gauss(mortar.basis.degree() + 2),
+            stiffness: lengths.iter().map(|h| modulus / h).collect(),
+            augmentation: modulus * lengths.len() as f64 / total,
+            reach: 0.5 * total,
+            law: (!law.frictionless()).then_some(law),
+            nonmortar,
+            mortar,
+            multiplier,
+            variables,
+            numerics,
+            orientation,
+            rule,
+            points,
+        }
+    }
+
+    /// Choices of this pair.
+    pub fn numerics(&self) -> &Numerics {
+        &self.numerics
+    }
+
+    /// The law, where there is friction.
+    pub fn law(&self) -> Option<&Arc<dyn FrictionLaw>> {
+        self.law.as_ref()
+    }
+
+    fn site_count(&self) -> usize {
+        match self.numerics.sites {
+            Sites::Nodal => self.multipliers(),
+            Sites::Quadrature => self.points.len(),
+        }
+    }
+
+    fn sites(&self, points: &[QuadraturePoint]) -> Vec<Site> {
+        let reads = |p: &QuadraturePoint| {
+            (0..p.multiplier.count).map(|i| (p.multiplier.first + i, p.multiplier.d[0][i])).collect::<Vec<_>>()
+        };
+        match self.numerics.sites {
+            Sites::Quadrature => {
+                points.iter().enumerate().map(|(i, p)| Site { group: vec![(i, p.weight)], reads: reads(p) }).collect()
+            }
+            Sites::Nodal => {
+                let mut groups = vec![Vec::new(); self.multipliers()];
+                for (i, p) in points.iter().enumerate() {
+                    reads(p).into_iter().for_each(|(a, value)| groups[a].push((i, p.weight * value)));
+                }
+                let nodal = |(a, group)| Site { group, reads: vec![(a, 1.0)] };
+                groups.into_iter().enumerate().map(nodal).collect()
+            }
+        }
+    }
+
+    fn evaluate_site(
+        &self,
+        site: Site,
+        index: usize,
+        points: &[QuadraturePoint],
+        states: &[Option<PointState>],
+        (start, trial): (&InterfaceStart, &InterfaceTrial),
+    ) -> SiteState {
+        let (mut weight, mut gap, mut slip, mut stretch, mut r) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let mut position = [0.0; 2];
+        let full: f64 = site.group.iter().map(|(_, c)| c).sum();
+        for &(i, c) in &site.group {
+            r += c / full * self.stiffness[points[i].span];
+            if let Some(state) = &states[i] {
+                weight += c;
+                gap += c * state.frame.gap;
+                slip += c * state.path.length;
+                stretch += c * state.z[6].hypot(state.z[7]) / points[i].reference_stretch;
+                position[0] += c * state.x.x;
+                position[1] += c * state.x.y;
+            }
+        }
+        let has_partner = weight > 1e-8 * full;
+        let mean = |v: f64| if has_partner { v / weight } else { 0.0 };
+        let read = |values: &[f64]| site.reads.iter().map(|&(a, m)| m * values[a]).sum::<f64>();
+        let (p, q) = (read(trial.pressure), if self.rubs() { read(trial.traction) } else { 0.0 });
+        let r = [r * self.numerics.r, r * self.numerics.r_tangential];
+        let variables = self.variables.len();
+        let input = SiteInput {
+            p,
+            q,
+            gap: mean(gap),
+            slip: mean(slip),
+            r_normal: r[0],
+            r_tangential: r[1],
+            stretch: if has_partner { stretch / weight } else { 1.0 },
+            has_partner,
+            dt: trial.dt,
+            position: position.map(mean),
+            old: start.laws.get(index * variables..(index + 1) * variables).unwrap_or(&self.variables),
+        };
+        let answer = complementarity(self.law.as_deref(), &input);
+        let none = if has_partner { 0.0 } else { f64::NAN };
+        SiteState {
+            weight: if has_partner { weight } else { full },
+            gap: input.gap + none,
+            slip: input.slip + none,
+            stretch: input.stretch,
+            site,
+            p,
+            q,
+            r,
+            answer,
+        }
+    }
+}
+
+impl ContactDiscretization for Mortar {
+    fn multipliers(&self) -> usize {
+        self.multiplier.as_ref().map_or(self.nonmortar.points.len(), |basis| basis.len())
+    }
+
+    fn rubs(&self) -> bool {
+        self.law.is_some()
+    }
+
+    fn augmentation(&self) -> f64 {
+        self.augmentation
+    }
+
+    fn initial_laws(&self) -> Vec<f64> {
+        self.variables.repeat(self.site_count())
+    }
+
+    fn variable_names(&self) -> Vec<String> {
+        self.law.iter().flat_map(|law| law.variables()).map(|v| v.name.to_string()).collect()
+    }
+
+    fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: bool) -> InterfaceForces {
+        let curves = Curves {
+            nonmortar: &self.nonmortar,
+            mortar: &self.mortar,
+            orientation: self.orientation,
+            rule: &self.path_rule,
+        };
+        let segments = match self.numerics.integration {
+            Integration::Element => None,
+            Integration::Segment => {
+                let cuts =
+                    mortar_cuts(&self.nonmortar, &self.mortar, &trial.at, self.numerics.projection, self.reach);
+                let functions = EdgeFunctions { curve: &self.nonmortar, multiplier: self.multiplier.as_deref() };
+                Some(functions.points(&self.rule, &cuts))
+            }
+        };
+        let points = segments.as_deref().unwrap_or(&self.points);
+        let projection = self.numerics.projection;
+        let old = Target::new(&self.mortar, start.at.mortar, projection, self.reach);
+        let new = Target::new(&self.mortar, trial.at.mortar, projection, self.reach);
+        let states: Vec<Option<PointState>> =
+            points.iter().map(|p| curves.point(p, (&old, start), (&new, trial), tangent)).collect();
+        let sites: Vec<SiteState> = self
+            .sites(points)
+            .into_iter()
+            .enumerate()
+            .map(|(index, site)| self.evaluate_site(site, index, points, &states, (start, trial)))
+            .collect();
+        let multipliers = self.multipliers();
+        Assembly { curves, points, states: &states, sites: &sites, multipliers, rubs: self.rubs() }
+            .forces(trial, tangent)
+    }
+}

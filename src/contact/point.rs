@@ -1,0 +1,156 @@
+//! One quadrature point in a configuration: partner, gap, slip and the rows of their derivatives.
+
+use crate::geometry::{Curve, Point, Shape};
+use crate::math::{GaussRule, Vec2, rot90};
+
+use super::integration::QuadraturePoint;
+use super::interface::{Configuration, InterfaceStart, InterfaceTrial};
+use super::kinematics::{Frame, Orientation, SlotMatrix, Slots};
+use super::projection::{Partner, Seeker, Target};
+use super::slip::{Path, path};
+
+/// The two curves of a pair and how they see each other.
+#[derive(Clone, Copy)]
+pub struct Curves<'a> {
+    /// Carries multipliers and quadrature points.
+    pub nonmortar: &'a Curve,
+    /// Is projected onto.
+    pub mortar: &'a Curve,
+    /// Projection and sides.
+    pub orientation: Orientation,
+    /// Quadrature of the slip path.
+    pub rule: &'a GaussRule,
+}
+
+/// A point that has a partner.
+#[derive(Clone, Debug)]
+pub struct PointState {
+    /// Partner on the mortar curve.
+    pub partner: Partner,
+    /// Local vector.
+    pub z: Slots,
+    /// `y'''`.
+    pub third: [f64; 2],
+    /// Gap, virtual slip and projection parameter with their coefficients.
+    pub frame: Frame,
+    /// Finite slip of the step and its derivative along the curve.
+    pub path: Path,
+    /// Position.
+    pub x: Point,
+    /// Mortar tangent and outward normal.
+    pub tangent: Vec2,
+    /// Outward normal.
+    pub normal: Vec2,
+}
+
+/// Position and normal of a nonmortar point.
+pub fn seeker(curve: &Curve, shape: &Shape, points: &[Point]) -> Seeker {
+    let tangent = curve.place(shape, 1, points).normalize();
+    Seeker { x: curve.place(shape, 0, points), tangent, normal: rot90(tangent) * curve.side }
+}
+
+impl Curves<'_> {
+    /// Kinematics of a point, or `None` without a partner. `old` and `new` are the mortar curve at the start of the
+    /// step and now.
+    pub fn point(
+        &self,
+        point: &QuadraturePoint,
+        (old, start): (&Target, &InterfaceStart),
+        (new, trial): (&Target, &InterfaceTrial),
+        gradient: bool,
+    ) -> Option<PointState> {
+        let here = seeker(self.nonmortar, &point.shape, trial.at.nonmortar);
+        let partner = new.project(&here)?;
+        let edge = self.nonmortar.place(&point.shape, 1, trial.at.nonmortar);
+        let [y, a, b, c] = [0, 1, 2, 3].map(|k| self.mortar.place(&partner.shape, k, trial.at.mortar));
+        let d = here.x - y;
+        let z = [d.x, d.y, a.x, a.y, b.x, b.y, edge.x, edge.y];
+        let from = self.anchor(point, old, start, &here, &partner, trial.at);
+        let path = path(self.mortar, trial.at.mortar, self.rule, from, partner.xi, gradient);
+        let tangent = a.normalize();
+        Some(PointState {
+            frame: self.orientation.frame(&z),
+            partner,
+            z,
+            third: [c.x, c.y],
+            path,
+            x: here.x,
+            tangent,
+            normal: rot90(tangent) * self.mortar.side,
+        })
+    }
+
+    /// Parameter from which the slip of this step counts: the partner at the start of the step. A partner on another
+    /// flank (farther along the curve than the two points can have moved against each other) is a release and a new
+    /// contact: then the place on the new flank that was nearest at the start of the step.
+    fn anchor(
+        &self,
+        point: &QuadraturePoint,
+        old: &Target,
+        start: &InterfaceStart,
+        here: &Seeker,
+        partner: &Partner,
+        at: Configuration,
+    ) -> f64 {
+        let before = seeker(self.nonmortar, &point.shape, start.at.nonmortar);
+        let moved = |shape: &Shape| {
+            let y = self.mortar.place(shape, 0, at.mortar) - self.mortar.place(shape, 0, start.at.mortar);
+            (here.x - before.x - y).norm()
+        };
+        if let Some(was) = old.project(&before) {
+            let length = path(self.mortar, at.mortar, self.rule, was.xi, partner.xi, false).length.abs();
+            let gap = (self.mortar.place(&partner.shape, 0, at.mortar) - here.x).norm();
+            let bound = moved(&was.shape).max(moved(&partner.shape)) + gap;
+            if length <= 3.0 * bound {
+                return was.xi;
+            }
+        }
+        old.parameter_near(before.x, partner.xi)
+    }
+
+    /// Spreads coefficients on slots to the control points: `visit(control point, coefficient)`, mortar control points
+    /// numbered after the nonmortar ones.
+    pub fn spread(&self, point: &QuadraturePoint, partner: &Partner, row: &Slots, mut visit: impl FnMut(usize, Vec2)) {
+        let v = |k: usize| Vec2::new(row[2 * k], row[2 * k + 1]);
+        for i in 0..point.shape.count {
+            visit(point.shape.first + i, v(0) * point.shape.d[0][i] + v(3) * point.shape.d[1][i]);
+        }
+        let mortar = &partner.shape;
+        let offset = self.nonmortar.points.len() + mortar.first;
+        for i in 0..mortar.count {
+            visit(offset + i, v(1) * mortar.d[1][i] + v(2) * mortar.d[2][i] - v(0) * mortar.d[0][i]);
+        }
+    }
+
+    /// The slot map as a dense array: one pair of columns per control point, in the order of `spread`.
+    pub fn columns(&self, point: &QuadraturePoint, partner: &Partner) -> Vec<(usize, [f64; 4])> {
+        let mut out = Vec::with_capacity(point.shape.count + partner.shape.count);
+        for i in 0..point.shape.count {
+            out.push((point.shape.first + i, [point.shape.d[0][i], 0.0, 0.0, point.shape.d[1][i]]));
+        }
+        let (mortar, offset) = (&partner.shape, self.nonmortar.points.len() + partner.shape.first);
+        for i in 0..mortar.count {
+            out.push((offset + i, [-mortar.d[0][i], mortar.d[1][i], mortar.d[2][i], 0.0]));
+        }
+        out
+    }
+}
+
+/// `B^T form B` entry by entry for the columns of a point: `visit(row unknown, column unknown, value)`.
+pub fn congruence(columns: &[(usize, [f64; 4])], form: &SlotMatrix, mut visit: impl FnMut(usize, usize, f64)) {
+    for (node_j, cj) in columns {
+        for jc in 0..2 {
+            // form B, one column
+            let mut image = [0.0; 8];
+            for (i, value) in image.iter_mut().enumerate() {
+                *value = (0..4).map(|k| form[i][2 * k + jc] * cj[k]).sum();
+            }
+            for (node_i, ci) in columns {
+                for ic in 0..2 {
+                    let value: f64 = (0..4).map(|k| ci[k] * image[2 * k + ic]).sum();
+                    visit(2 * node_i + ic, 2 * node_j + jc, value);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! Projection of nonmortar points onto the current mortar curve, with a safeguarded search.
+//!
+//! A coarse pass over samples of the curve brackets the partner; a Newton iteration that falls back to bisection
+//! finishes. Only partners with opposing normals are admissible; points whose partner would lie beyond the ends of the
+//! curve have none.
+
+use crate::geometry::{Curve, Point, Shape};
+use crate::math::{Vec2, rot90};
+
+use super::interface::Projection;
+
+/// Samples of a mortar span in the coarse pass.
+const SAMPLES_PER_SPAN: usize = 3;
+
+/// A partner on the mortar curve.
+#[derive(Clone, Copy, Debug)]
+pub struct Partner {
+    /// Span of the mortar curve.
+    pub span: usize,
+    /// Parameter.
+    pub xi: f64,
+    /// Mortar shape functions there.
+    pub shape: Shape,
+}
+
+/// A point that looks for its partner: position, unit tangent and outward normal of the nonmortar curve.
+#[derive(Clone, Copy, Debug)]
+pub struct Seeker {
+    /// Position.
+    pub x: Point,
+    /// Unit tangent.
+    pub tangent: Vec2,
+    /// Outward unit normal.
+    pub normal: Vec2,
+}
+
+struct Sample {
+    xi: f64,
+    y: Point,
+    normal: Vec2,
+}
+
+/// A mortar curve in one configuration.
+pub struct Target<'a> {
+    curve: &'a Curve,
+    points: &'a [Point],
+    projection: Projection,
+    samples: Vec<Sample>,
+    low: Point,
+    high: Point,
+    reach: f64,
+}
+
+impl<'a> Target<'a> {
+    /// Samples the curve. Partners farther away than `reach` are not looked for.
+    pub fn new(curve: &'a Curve, points: &'a [Point], projection: Projection, reach: f64) -> Self {
+        let breaks = curve.basis.breaks();
+        let mut samples = Vec::with_capacity(SAMPLES_PER_SPAN * curve.spans() + 1);
+        for span in 0..curve.spans() {
+            let last = span + 1 == curve.spans();
+            for k in 0..SAMPLES_PER_SPAN + usize::from(last) {
+                let xi = breaks[span] + (breaks[span + 1] - breaks[span]) * k as f64 / SAMPLES_PER_SPAN as f64;
+                let shape = curve.shape(span, xi);
+                let normal = rot90(curve.place(&shape, 1, points)) * curve.side;
+                samples.push(Sample { xi, y: curve.place(&shape, 0, points), normal });
+            }
+        }
+        let fold = |f: fn(f64, f64) -> f64, start: f64| {
+            samples.iter().fold(Point::new(start, start), |m, s| Point::new(f(m.x, s.y.x), f(m.y, s.y.y)))
+        };
+        let (low, high) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
+        Self { curve, points, projection, samples, low, high, reach }
+    }
+
+    /// True where a partner within reach is possible at all.
+    pub fn near(&self, x: Point) -> bool {
+        (0..2).all(|c| x[c] > self.low[c] - self.reach && x[c] < self.high[c] + self.reach)
+    }
+
+    /// The admissible partner at the smallest distance.
+    pub fn project(&self, seeker: &Seeker) -> Option<Partner> {
+        if !self.near(seeker.x) {
+            return None;
+        }
+        match self.projection {
+            Projection::Closest => self.closest(seeker),
+            Projection::Ray => self.ray(seeker),
+        }
+    }
+
+    /// The partner on the same flank as parameter `xi`: a local search from there (closest point of the curve to `x`).
+    /// Stops at the ends of the curve.
+    pub fn parameter_near(&self, x: Point, mut xi: f64) -> f64 {
+        let breaks = self.curve.basis.breaks();
+        let (start, end) = (breaks[0], breaks[breaks.len() - 1]);
+        for _ in 0..20 {
+            let shape = self.shape(xi);
+            let (y, a) = (self.curve.place(&shape, 0, self.points), self.curve.place(&shape, 1, self.points));
+            let step = (x - y).dot(&a) / a.norm_squared();
+            let next = (xi + step).clamp(start, end);
+            let done = (next - xi).abs() < 1e-14 * (end - start);
+            xi = next;
+            if done {
+                break;
+            }
+        }
+        xi
+    }
+
+    fn shape(&self, xi: f64) -> Shape {
+        self.curve.shape(self.curve.span_of(xi), xi)
+    }
+
+    fn partner(&self, xi: f64, seeker: &Seeker) -> Option<Partner> {
+        let span = self.curve.span_of(xi);
+        let shape = self.curve.shape(span, xi);
+        let distance = (self.curve.place(&shape, 0, self.points) - seeker.x).norm();
+        let normal = rot90(self.curve.place(&shape, 1, self.points)) * self.curve.side;
+        (normal.dot(&seeker.normal) < 0.0 && distance < self.reach).then_some(Partner { span, xi, shape })
+    }
+
+    fn closest(&self, seeker: &Seeker) -> Option<Partner> {
+        let distance = |s: &Sample| (s.y - seeker.x).norm_squared();
+        let (best, _) = self
+            .samples
+            .iter()
+            .enumerate()
+            .filter(|(_, s)| s.normal.dot(&seeker.normal) < 0.0)
+            .min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))?;
+        // f = (x - y).a falls through zero at a minimum of the distance.
+        let value = |xi: f64| {
+            let shape = self.shape(xi);
+            let [y, a, b] = [0, 1, 2].map(|k| self.curve.place(&shape, k, self.points));
+            ((seeker.x - y).dot(&a), (seeker.x - y).dot(&b) - a.norm_squared())
+        };
+        let mut low = best.saturating_sub(1);
+        let mut high = (best + 1).min(self.samples.len() - 1);
+        while low > 0 && value(self.samples[low].xi).0 < 0.0 {
+            low -= 1;
+        }
+        while high + 1 < self.samples.len() && value(self.samples[high].xi).0 > 0.0 {
+            high += 1;
+        }
+        let xi = root(&|xi| value(xi), self.samples[low].xi, self.samples[high].xi, self.samples[best].xi)?;
+        self.partner(xi, seeker)
+    }
+
+    fn ray(&self, seeker: &Seeker) -> Option<Partner> {
+        let value = |xi: f64| {
+            let shape = self.shape(xi);
+            let [y, a] = [0, 1].map(|k| self.curve.place(&shape, k, self.points));
+            (-(y - seeker.x).dot(&seeker.tangent), -a.dot(&seeker.tangent))
+        };
+        let offset = |s: &Sample| (s.y - seeker.x).dot(&seeker.tangent);
+        let mut best: Option<(f64, Partner)> = None;
+        for pair in self.samples.windows(2) {
+            let (low, high) = (offset(&pair[0]), offset(&pair[1]));
+            let opposing = pair.iter().any(|s| s.normal.dot(&seeker.normal) < 0.0);
+            let far = best.as_ref().is_some_and(|(d, _)| {
+                pair.iter().all(|s| (s.y - seeker.x).norm() > d + (pair[1].y - pair[0].y).norm())
+            });
+            if low * high > 0.0 || !opposing || far {
+                continue;
+            }
+            let sign = if low < high { 1.0 } else { -1.0 };
+            let oriented = |xi: f64| {
+                let (f, df) = value(xi);
+                (sign * f, sign * df)
+            };
+            let found = root(&oriented, pair[0].xi, pair[1].xi, 0.5 * (pair[0].xi + pair[1].xi))
+                .and_then(|xi| self.partner(xi, seeker));
+            if let Some(partner) = found {
+                let distance = (self.curve.place(&partner.shape, 0, self.points) - seeker.x).norm();
+                if best.as_ref().is_none_or(|(d, _)| distance < *d) {
+                    best = Some((distance, partner));
+                }
+            }
+        }
+        best.map(|(_, partner)| partner)
+    }
+}
+
+/// Root of a function that falls from positive to negative over `[low, high]`: Newton, bisection where Newton leaves the
+/// bracket. `None` without a change of sign.
+fn root(f: &dyn Fn(f64) -> (f64, f64), mut low: f64, mut high: f64, start: f64) -> Option<f64> {
+    let tolerance = 1e-15 * (high - low).abs().max(low.abs()).max(high.abs());
+    let (at_low, at_high) = (f(low).0, f(high).0);
+    if at_low < 0.0 || at_high > 0.0 {
+        return None;
+    }
+    let mut xi = start;
+    for _ in 0..80 {
+        let (value, slope) = f(xi);
+        if value > 0.0 {
+            low = xi;
+        } else {
+            high = xi;
+        }
+        let newton = xi - value / slope;
+        let next = if slope < 0.0 && newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let step = (next - xi).abs();
+        xi = if value == 0.0 { xi } else { next };
+        if step <= tolerance || value == 0.0 {
+            break;
+        }
+    }
+    Some(xi)
+}

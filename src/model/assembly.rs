@@ -1,0 +1,125 @@
+//! `evaluate(model, start, trial)`: residual and tangent, a pure function of its arguments.
+
+use crate::contact::{Configuration, ContactDiscretization, InterfaceForces, InterfaceStart, InterfaceTrial};
+use crate::geometry::Point;
+use crate::math::{SparseMatrix, System, Triplets};
+
+use super::body::BodyKind;
+use super::motion::Control;
+use super::{Model, Pair, Side, State};
+
+/// Residual, tangent and what was found on the way.
+pub struct Evaluation {
+    /// Internal plus interface force at every control point, before supports and loads: at a supported one the reaction.
+    pub forces: Vec<Point>,
+    /// Residual of the equations; all entries are forces per unit depth.
+    pub residual: Vec<f64>,
+    /// Newton matrix, where asked for.
+    pub system: Option<System>,
+    /// The pairs.
+    pub interfaces: Vec<InterfaceForces>,
+    /// Strain energy of all bodies.
+    pub strain_energy: f64,
+    /// Largest nodal force among the parts of the residual: what a small residual is measured against.
+    pub force_scale: f64,
+}
+
+/// Evaluates a trial state for a step that starts at `start`. `None` where a body is turned inside out (`det F <= 0`).
+pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: bool) -> Option<Evaluation> {
+    let mut forces = vec![Point::zeros(); model.nodes()];
+    let mut values = vec![0.0; if tangent { model.equations.pattern.rows.len() } else { 0 }];
+    let mut strain_energy = 0.0;
+    for (k, body) in model.bodies.iter().enumerate() {
+        if let BodyKind::Deformable { elements, material, .. } = &body.kind {
+            let places = &model.equations.places[k];
+            strain_energy += elements.integrate(material.as_ref(), &trial.u[body.nodes()], tangent, |e, element| {
+                for (&a, f) in element.nodes.iter().zip(element.forces) {
+                    forces[body.offset + a] += f;
+                }
+                let n = element.stiffness.len();
+                for (&place, v) in places[e * n..(e + 1) * n].iter().zip(element.stiffness) {
+                    if place != u32::MAX {
+                        values[place as usize] += v;
+                    }
+                }
+            })?;
+        }
+    }
+    let mut force_scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.amax()));
+    let interfaces: Vec<InterfaceForces> =
+        model.pairs.iter().enumerate().map(|(k, pair)| interface(model, pair, k, start, trial, tangent)).collect();
+    for (pair, found) in model.pairs.iter().zip(&interfaces) {
+        for (&node, f) in pair.nonmortar.nodes.iter().chain(&pair.mortar.nodes).zip(&found.forces) {
+            forces[node] += f;
+            force_scale = force_scale.max(f.amax());
+        }
+    }
+    let residual = residual(model, &forces, &interfaces, trial.time);
+    let system = tangent.then(|| System {
+        n: model.unknowns(),
+        bulk: SparseMatrix { pattern: model.equations.pattern.clone(), values },
+        interface: interface_entries(model, &interfaces),
+    });
+    Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale })
+}
+
+fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State, tangent: bool) -> InterfaceForces {
+    let place = |side: &Side, state: &State| -> Vec<Point> {
+        let body = &model.bodies[side.body];
+        side.nodes.iter().map(|&i| body.points[i - body.offset] + state.u[i]).collect()
+    };
+    let [old_nonmortar, nonmortar] = [start, trial].map(|s| place(&pair.nonmortar, s));
+    let [old_mortar, mortar] = [start, trial].map(|s| place(&pair.mortar, s));
+    let from = InterfaceStart {
+        at: Configuration { nonmortar: &old_nonmortar, mortar: &old_mortar },
+        laws: &start.pairs[k].laws,
+    };
+    let to = InterfaceTrial {
+        at: Configuration { nonmortar: &nonmortar, mortar: &mortar },
+        pressure: &trial.pairs[k].pressure,
+        traction: &trial.pairs[k].traction,
+        dt: trial.time - start.time,
+    };
+    pair.contact.evaluate(&from, &to, tangent)
+}
+
+fn residual(model: &Model, forces: &[Point], interfaces: &[InterfaceForces], time: f64) -> Vec<f64> {
+    let mut residual = vec![0.0; model.unknowns()];
+    for (node, f) in forces.iter().enumerate() {
+        for c in 0..2 {
+            if let Some(e) = model.equations.unknown(node, c) {
+                residual[e] += f[c];
+            }
+        }
+    }
+    for (motion, unknown) in model.motions.iter().zip(&model.equations.of_motion) {
+        if let (Control::Force(table), Some(e)) = (&motion.control, unknown) {
+            residual[*e] -= table.at(time);
+        }
+    }
+    for (pair, found) in model.pairs.iter().zip(interfaces) {
+        let rows = &mut residual[pair.offset..pair.offset + pair.unknowns()];
+        let scale = pair.contact.augmentation();
+        rows.iter_mut().zip(&found.multiplier_rows).for_each(|(row, v)| *row = scale * v);
+    }
+    residual
+}
+
+/// Local entries of the pairs at the unknowns of the model. Multiplier unknowns are `p/r` and their rows are multiplied
+/// by `r`, so that all blocks have the size of `E`.
+fn interface_entries(model: &Model, interfaces: &[InterfaceForces]) -> Triplets {
+    let mut entries = Triplets::new();
+    for (pair, found) in model.pairs.iter().zip(interfaces) {
+        let scale = pair.contact.augmentation();
+        let nodes: Vec<usize> = pair.nonmortar.nodes.iter().chain(&pair.mortar.nodes).copied().collect();
+        let unknown = |i: usize| match nodes.get(i / 2) {
+            Some(&node) => model.equations.unknown(node, i % 2).map(|e| (e, 1.0)),
+            None => Some((pair.offset + i - 2 * nodes.len(), scale)),
+        };
+        entries.extend(found.tangent.iter().filter_map(|&(i, j, v)| {
+            let ((row, a), (column, b)) = (unknown(i)?, unknown(j)?);
+            Some((row, column, a * b * v))
+        }));
+    }
+    entries
+}

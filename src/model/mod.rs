@@ -1,0 +1,99 @@
+//! All that is fixed during an analysis, the state that moves, and their evaluation.
+
+mod assembly;
+mod body;
+mod build;
+mod equations;
+mod motion;
+mod record;
+mod state;
+
+pub use crate::contact::ContactStatus;
+pub use assembly::{Evaluation, evaluate};
+pub use body::{Body, BodyKind};
+pub use build::{BodySpec, Builder, ModelError, PairSpec};
+pub use equations::{Dof, Equations};
+pub use motion::{Control, Motion, Table};
+pub use record::{InterfaceRow, Record, interface_rows, record};
+pub use state::{Ledger, PairState, State};
+
+use std::sync::Arc;
+
+use crate::contact::{ContactDiscretization, Mortar};
+
+/// One side of a contact pair: control points of an edge of a body.
+#[derive(Clone, Debug)]
+pub struct Side {
+    /// Body.
+    pub body: usize,
+    /// Numbers of the control points of the edge, over all bodies.
+    pub nodes: Vec<usize>,
+}
+
+/// Two edges that may touch.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Carries multipliers.
+    pub nonmortar: Side,
+    /// Is projected onto.
+    pub mortar: Side,
+    /// The discretization.
+    pub contact: Arc<Mortar>,
+    /// First multiplier unknown.
+    pub offset: usize,
+}
+
+impl Pair {
+    /// Number of multiplier unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.contact.multipliers() * if self.contact.rubs() { 2 } else { 1 }
+    }
+}
+
+/// Bodies, motions, contact pairs and the numbering of their unknowns.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// Bodies in scene order.
+    pub bodies: Vec<Body>,
+    /// Prescribed displacements and forces, one per component.
+    pub motions: Vec<Motion>,
+    /// Contact pairs.
+    pub pairs: Vec<Pair>,
+    /// Numbering of the displacement unknowns and pattern of the bulk stiffness.
+    pub equations: Equations,
+    /// The body whose resistance and support are reported, see [`Record`].
+    pub driven: usize,
+    /// Stress scale: the smallest Young's modulus.
+    pub modulus: f64,
+    /// Length scale: mean element length of the contact edges (or of the bodies).
+    pub element_size: f64,
+}
+
+impl Model {
+    /// Number of control points of all bodies.
+    pub fn nodes(&self) -> usize {
+        self.bodies.last().map_or(0, |b| b.offset + b.points.len())
+    }
+
+    /// Number of all unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.equations.count + self.pairs.iter().map(Pair::unknowns).sum::<usize>()
+    }
+
+    /// Reference positions of all control points.
+    pub fn reference(&self) -> impl Iterator<Item = crate::geometry::Point> + '_ {
+        self.bodies.iter().flat_map(|b| b.points.iter().copied())
+    }
+
+    /// Largest coordinate extent of the bodies.
+    pub fn size(&self) -> f64 {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for x in self.reference() {
+            for c in 0..2 {
+                low[c] = low[c].min(x[c]);
+                high[c] = high[c].max(x[c]);
+            }
+        }
+        (high[0] - low[0]).max(high[1] - low[1])
+    }
+}

@@ -1,0 +1,111 @@
+//! What moves during an analysis.
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::ContactDiscretization;
+use crate::geometry::Point;
+
+use super::record::motion_forces;
+use super::{Control, Dof, Evaluation, Model};
+
+/// Unknowns and memory of one contact pair.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PairState {
+    /// Pressure multipliers (nominal stress).
+    pub pressure: Vec<f64>,
+    /// Traction multipliers; empty when nothing rubs.
+    pub traction: Vec<f64>,
+    /// Internal variables of the law, site by site.
+    pub laws: Vec<f64>,
+}
+
+/// Work done so far, and the forces that continue it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Ledger {
+    /// Work of all motions (trapezoidal rule over the steps).
+    pub external_work: f64,
+    /// Work of friction.
+    pub dissipated: f64,
+    /// Force of each motion at this state.
+    pub forces: Vec<f64>,
+}
+
+impl Ledger {
+    /// Adds the work of all motions over a step by the trapezoidal rule and remembers their forces.
+    pub fn settle(&mut self, model: &Model, start: &State, u: &[Point], time: f64, evaluation: &Evaluation) {
+        let forces = motion_forces(model, evaluation);
+        for (k, motion) in model.motions.iter().enumerate() {
+            let travel = match &motion.control {
+                Control::Displacement(table) => table.at(time) - table.at(start.time),
+                Control::Force(_) => motion.nodes.first().map_or(0.0, |&i| (u[i] - start.u[i])[motion.component]),
+            };
+            self.external_work += 0.5 * (start.ledger.forces[k] + forces[k]) * travel;
+        }
+        self.forces = forces;
+    }
+}
+
+/// Configuration, multipliers and memory at one time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Time.
+    pub time: f64,
+    /// Displacement of every control point of every body.
+    pub u: Vec<Point>,
+    /// One entry per contact pair.
+    pub pairs: Vec<PairState>,
+    /// Work done so far.
+    pub ledger: Ledger,
+}
+
+impl State {
+    /// The undeformed state at time zero, displacements as prescribed at that time.
+    pub fn initial(model: &Model) -> Self {
+        let pairs = model.pairs.iter().map(|pair| {
+            let n = pair.contact.multipliers();
+            PairState {
+                pressure: vec![0.0; n],
+                traction: vec![0.0; if pair.contact.rubs() { n } else { 0 }],
+                laws: pair.contact.initial_laws(),
+            }
+        });
+        let mut state = Self {
+            time: 0.0,
+            u: vec![Point::zeros(); model.nodes()],
+            pairs: pairs.collect(),
+            ledger: Ledger { forces: vec![0.0; model.motions.len()], ..Default::default() },
+        };
+        state.prescribe(model, 0.0);
+        state
+    }
+
+    /// Sets the time and every prescribed displacement component.
+    pub fn prescribe(&mut self, model: &Model, time: f64) {
+        self.time = time;
+        for (dofs, u) in model.equations.dofs.iter().zip(&mut self.u) {
+            for c in 0..2 {
+                if let Dof::Prescribed(k) = dofs[c]
+                    && let Control::Displacement(table) = &model.motions[k].control
+                {
+                    u[c] = table.at(time);
+                }
+            }
+        }
+    }
+
+    /// Adds `factor` times a Newton increment (unknowns in the order of the equations; multipliers scaled by `r`).
+    pub fn advance(&mut self, model: &Model, increment: &[f64], factor: f64) {
+        for (dofs, u) in model.equations.dofs.iter().zip(&mut self.u) {
+            for c in 0..2 {
+                if let Dof::Unknown(e) = dofs[c] {
+                    u[c] += factor * increment[e];
+                }
+            }
+        }
+        for (pair, state) in model.pairs.iter().zip(&mut self.pairs) {
+            let scale = factor * pair.contact.augmentation();
+            let values = state.pressure.iter_mut().chain(&mut state.traction);
+            values.zip(&increment[pair.offset..]).for_each(|(value, d)| *value += scale * d);
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! One axis: range, round ticks, labels with a common power of ten.
+
+/// A linear axis.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// Value at the start.
+    pub min: f64,
+    /// Value at the end.
+    pub max: f64,
+    /// Values of the ticks.
+    pub ticks: Vec<f64>,
+    /// Labels of the ticks, in units of `10^exponent`.
+    pub labels: Vec<String>,
+    /// Common power of ten; 0 where plain numbers are short.
+    pub exponent: i32,
+}
+
+impl Axis {
+    /// Axis over exactly `[min, max]` with about `count` round ticks.
+    pub fn new([min, max]: [f64; 2], count: usize) -> Self {
+        let step = round_step((max - min) / count.max(1) as f64);
+        let (first, last) = ((min / step - 1e-9).ceil() as i64, (max / step + 1e-9).floor() as i64);
+        let ticks: Vec<f64> = (first..=last).map(|k| k as f64 * step).collect();
+        let largest = ticks.iter().fold(0.0_f64, |largest, tick| largest.max(tick.abs()));
+        let exponent = common_exponent(largest);
+        let unit = 10.0_f64.powi(exponent);
+        let decimals = (0..8).find(|d| is_multiple(step / unit, 0.1_f64.powi(*d))).unwrap_or(8) as usize;
+        let labels = ticks.iter().map(|tick| label(tick / unit, decimals)).collect();
+        Self { min, max, ticks, labels, exponent }
+    }
+
+    /// Position of a value as a share of the axis, 0 at the start.
+    pub fn share(&self, value: f64) -> f64 {
+        (value - self.min) / (self.max - self.min)
+    }
+
+    /// Markup of the power of ten, empty where there is none.
+    pub fn power(&self) -> String {
+        if self.exponent == 0 { String::new() } else { format!("×10^{{{}}}", label(f64::from(self.exponent), 0)) }
+    }
+}
+
+/// 1, 2 or 5 times a power of ten, nearest above.
+pub fn round_step(raw: f64) -> f64 {
+    let power = 10.0_f64.powf(raw.log10().floor());
+    let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| raw <= factor * power * (1.0 + 1e-9));
+    factor.unwrap_or(10.0) * power
+}
+
+fn common_exponent(largest: f64) -> i32 {
+    if largest == 0.0 || (1e-2..1e4).contains(&(largest * (1.0 + 1e-12))) {
+        return 0;
+    }
+    (largest * (1.0 + 1e-12)).log10().floor() as i32
+}
+
+fn is_multiple(value: f64, unit: f64) -> bool {
+    let ratio = value / unit;
+    (ratio - ratio.round()).abs() < 1e-6 && ratio.round() != 0.0
+}
+
+/// Decimal number with a true minus sign.
+pub fn label(value: f64, decimals: usize) -> String {
+    let text = format!("{:.decimals$}", value.abs());
+    let negative = value < 0.0 && text.chars().any(|letter| ('1'..='9').contains(&letter));
+    if negative { format!("−{text}") } else { text }
+}
+
+/// Smallest range around all finite values, widened by `margin` of its size on both sides; never empty.
+pub fn range(values: impl Iterator<Item = f64>, margin: f64) -> [f64; 2] {
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    if low > high {
+        return [0.0, 1.0];
+    }
+    let size = match high - low {
+        // A constant, up to round-off: show it in the middle instead of magnifying the noise.
+        size if size <= 1e-12 * low.abs().max(high.abs()) => low.abs().max(high.abs()),
+        size => return [low - margin * size, high + margin * size],
+    };
+    let size = if size == 0.0 { 1.0 } else { size };
+    [low - 0.5 * size, high + 0.5 * size]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_labels_short() {
+        let axis = Axis::new([-0.013, 0.052], 5);
+        assert_eq!(axis.labels, ["0.00", "0.02", "0.04"]);
+        let axis = Axis::new([0.0, 3.8], 5);
+        assert_eq!(axis.labels, ["0", "1", "2", "3"]);
+        let axis = Axis::new([-1e-9, 1e-9], 4);
+        assert_eq!((axis.labels.join(" ").as_str(), axis.power().as_str()), ("−1.0 −0.5 0.0 0.5 1.0", "×10^{−9}"));
+    }
+
+    #[test]
+    fn labels_do_not_depend_on_the_unit() {
+        let labels = |scale: f64| Axis::new([-0.3 * scale, 4.0 * scale], 5).labels;
+        assert_eq!(labels(1e-9), labels(1e9));
+    }
+
+    #[test]
+    fn ranges_are_never_empty() {
+        assert_eq!(range([].into_iter(), 0.1), [0.0, 1.0]);
+        assert_eq!(range([0.0, f64::NAN].into_iter(), 0.1), [-0.5, 0.5]);
+        assert_eq!(range([2.0, 2.0].into_iter(), 0.1), [1.0, 3.0]);
+    }
+}

@@ -1,0 +1,71 @@
+//! `README.txt` of an output folder: every file and every column with its unit.
+//!
+//! The csv headers stay plain column names so that any reader takes them as they are; the units stand here.
+
+use std::fmt::Write;
+
+use super::tables::{HISTORY_COLUMNS, INTERFACE_COLUMNS};
+use super::units::{Quantity, UnitLabels};
+
+const HEAD: &str = "\
+Files of this folder
+====================
+run.json        the input with all defaults, versions, counters, audit results and status
+history.csv     one row per nominal step
+interface.csv   one row per interface site and nominal step
+fields.pvd      opens all fields in ParaView (time series of fields/*.vtu)
+figures/        every figure as SVG (vector) and PNG
+README.txt      this file
+
+Plane strain: forces and energies are per unit of thickness. Numbers read back bit for bit; nan = undefined.
+Fields are rational Bezier cells in the reference position: apply Warp By Vector with `displacement`, and
+set Nonlinear Subdivision Level > 1 to see the curved edges. Stresses are Cauchy stresses.
+";
+
+/// Text of `README.txt`; `variables` are the extra columns of `interface.csv` as (name, unit).
+pub fn text(title: &str, units: &UnitLabels, variables: &[(String, String)]) -> String {
+    let mut text = String::new();
+    if !title.is_empty() {
+        let _ = writeln!(text, "{title}\n");
+    }
+    let _ = writeln!(text, "{HEAD}\nUnits: {}", unit_line(units));
+    section(&mut text, "history.csv", &HISTORY_COLUMNS, units);
+    section(&mut text, "interface.csv", &INTERFACE_COLUMNS, units);
+    for (name, unit) in variables {
+        let _ = writeln!(text, "{name:<18} {unit:<12} state variable of the friction law");
+    }
+    text
+}
+
+fn unit_line(units: &UnitLabels) -> String {
+    let name = |label: &str| if label.is_empty() { "any consistent".to_owned() } else { label.to_owned() };
+    format!(
+        "length = {}, stress = {}, time = {}",
+        name(&units.length),
+        name(&units.stress),
+        name(&units.time)
+    )
+}
+
+fn section(text: &mut String, file: &str, columns: &[(&str, Quantity, &str)], units: &UnitLabels) {
+    let _ = writeln!(text, "\nColumns of {file}: name, unit, meaning");
+    for (name, quantity, meaning) in columns {
+        let _ = writeln!(text, "{name:<18} {:<12} {meaning}", unit(units, *quantity));
+    }
+}
+
+/// The label, or what the unit is made of where the scene names none.
+fn unit(units: &UnitLabels, quantity: Quantity) -> String {
+    let generic = match quantity {
+        Quantity::Length => "length",
+        Quantity::Stress => "stress",
+        Quantity::Time => "time",
+        Quantity::Force => "stress*length",
+        Quantity::Energy => "stress*length^2",
+        Quantity::Angle | Quantity::WallClock | Quantity::Number => "-",
+    };
+    match units.label(quantity) {
+        label if label.is_empty() => generic.to_owned(),
+        label => label,
+    }
+}

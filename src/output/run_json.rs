@@ -1,0 +1,70 @@
+//! `run.json` and every other file that is replaced as a whole: readers see the old or the new content, never a part.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+
+/// Writes a JSON value, indented, atomically (see [`write_atomic`]).
+///
+/// # Errors
+/// The path and the operating system's reason if the file cannot be written.
+pub fn write_json(path: &Path, value: &serde_json::Value) -> Result<(), OutputError> {
+    write_atomic(path, format!("{value:#}\n").as_bytes())
+}
+
+/// Writes `bytes` to a hidden file in the same folder, syncs it and renames it over `path`.
+///
+/// The same folder, because a rename across file systems is a copy and no longer atomic.
+///
+/// # Errors
+/// The path and the operating system's reason; the hidden file is removed and an existing `path` stays as it was.
+pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let hidden = hidden_beside(path);
+    let written = write_synced(&hidden, bytes)
+        .map_err(OutputError::io("write", path))
+        .and_then(|()| fs::rename(&hidden, path).map_err(OutputError::io("replace", path)));
+    if written.is_err() {
+        // Nothing more can be done if even this fails: the first error is the one to report.
+        let _ = fs::remove_file(&hidden);
+    }
+    written
+}
+
+fn write_synced(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+fn hidden_beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replaces_whole_files_and_leaves_nothing_behind() {
+        let folder = std::env::temp_dir().join(format!("asperity-json-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("run.json");
+        for value in [serde_json::json!({"a": 1e-300}), serde_json::json!({"b": [1, 2]})] {
+            write_json(&path, &value).unwrap();
+            let back: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+            assert_eq!(back, value);
+        }
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn error_names_the_path() {
+        let path = Path::new("/nonexistent-folder/run.json");
+        let message = write_json(path, &serde_json::Value::Null).unwrap_err().to_string();
+        assert!(message.contains("/nonexistent-folder/run.json"), "{message}");
+    }
+}

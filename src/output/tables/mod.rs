@@ -1,0 +1,137 @@
+//! `history.csv` and `interface.csv`: plain column names in the first line, one flushed row per record.
+
+mod history;
+mod interface;
+
+pub use history::{HISTORY_COLUMNS, HistoryWriter, read_history};
+pub use interface::{INTERFACE_COLUMNS, InterfaceWriter, read_interface};
+
+use std::fs::{self, File, OpenOptions};
+use std::path::Path;
+
+use super::OutputError;
+use super::run_json::write_atomic;
+
+/// Shortest decimal text that reads back as the same `f64`; `nan`, `inf`, `-inf` in lower case.
+pub fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if value.is_nan() {
+        "nan".into()
+    } else if value.is_infinite() || magnitude == 0.0 || (1e-4..1e12).contains(&magnitude) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// A table opened for appending; every row is in the file before `row` returns.
+#[derive(Debug)]
+struct Table {
+    writer: csv::Writer<File>,
+    path: std::path::PathBuf,
+}
+
+impl Table {
+    /// Starts an empty table with its header line; an existing file is replaced.
+    fn create(path: &Path, header: &[String]) -> Result<Self, OutputError> {
+        let file = File::create(path).map_err(OutputError::io("create", path))?;
+        let mut table = Self::over(file, path);
+        table.rows(std::iter::once(header.to_vec()))?;
+        Ok(table)
+    }
+
+    /// Opens an existing table, drops rows of later steps and a last line cut by a kill, and appends from there.
+    fn resume(path: &Path, header: &[String], last_step: usize) -> Result<Self, OutputError> {
+        let text = fs::read_to_string(path).map_err(OutputError::io("read", path))?;
+        write_atomic(path, kept_lines(&text, path, header, last_step)?.as_bytes())?;
+        let file = OpenOptions::new()
+            .append(true)
+            .open(path)
+            .map_err(OutputError::io("append to", path))?;
+        Ok(Self::over(file, path))
+    }
+
+    fn over(file: File, path: &Path) -> Self {
+        Self {
+            writer: csv::WriterBuilder::new().from_writer(file),
+            path: path.to_path_buf(),
+        }
+    }
+
+    /// Writes whole rows and flushes them in one go.
+    fn rows(&mut self, rows: impl Iterator<Item = Vec<String>>) -> Result<(), OutputError> {
+        for row in rows {
+            self.writer
+                .write_record(&row)
+                .map_err(|error| OutputError::io("append to", &self.path)(error.into()))?;
+        }
+        self.writer
+            .flush()
+            .map_err(OutputError::io("append to", &self.path))
+    }
+}
+
+/// The header and the complete rows up to and including `last_step` (first column of every table).
+fn kept_lines(
+    text: &str,
+    path: &Path,
+    header: &[String],
+    last_step: usize,
+) -> Result<String, OutputError> {
+    let expected = header.join(",");
+    let mut kept = String::new();
+    for (index, line) in text.split_inclusive('\n').enumerate() {
+        if index == 0 && line.trim_end() != expected {
+            return Err(OutputError::content(path, format!("expected the columns {expected}")));
+        }
+        let step = line.split(',').next().and_then(|cell| cell.parse::<usize>().ok());
+        if line.ends_with('\n') && (index == 0 || step.is_some_and(|step| step <= last_step)) {
+            kept.push_str(line);
+        }
+    }
+    Ok(kept)
+}
+
+/// A table read back: the header and the rows as text.
+type Cells = (Vec<String>, Vec<csv::StringRecord>);
+
+/// Reads a table whose header must begin with `columns`.
+fn read_cells(path: &Path, columns: &[&str]) -> Result<Cells, OutputError> {
+    let bad = |error: csv::Error| OutputError::content(path, error.to_string());
+    let mut reader = csv::ReaderBuilder::new().from_path(path).map_err(bad)?;
+    let header: Vec<String> = reader.headers().map_err(bad)?.iter().map(str::to_owned).collect();
+    if header.len() < columns.len() || header.iter().zip(columns).any(|(found, name)| found != name) {
+        return Err(OutputError::content(path, format!("expected the columns {}", columns.join(","))));
+    }
+    let rows = reader.records().collect::<Result<_, _>>().map_err(bad)?;
+    Ok((header, rows))
+}
+
+/// Reads the cells of one row from left to right, naming file, row and column in errors.
+struct Row<'a> {
+    cells: &'a csv::StringRecord,
+    header: &'a [String],
+    next: usize,
+    path: &'a Path,
+}
+
+impl<'a> Row<'a> {
+    fn new(cells: &'a csv::StringRecord, header: &'a [String], path: &'a Path) -> Self {
+        Self { cells, header, next: 0, path }
+    }
+
+    fn take<T: std::str::FromStr>(&mut self) -> Result<T, OutputError> {
+        let column = self.next;
+        self.next += 1;
+        let cell = self.cells.get(column).unwrap_or_default();
+        cell.parse().map_err(|_| {
+            let name = self.header.get(column).map_or("?", String::as_str);
+            let line = self.cells.position().map_or(0, csv::Position::line);
+            OutputError::content(self.path, format!("line {line}, column {name}: cannot read \"{cell}\""))
+        })
+    }
+
+    fn pair(&mut self) -> Result<[f64; 2], OutputError> {
+        Ok([self.take()?, self.take()?])
+    }
+}

@@ -1,0 +1,84 @@
+//! Labels of the consistent unit system a scene is written in. Labels only: nothing is ever converted.
+
+/// Names of the three base units; an empty string means "not given".
+///
+/// Plane strain: forces are per unit of thickness (stress * length), energies per unit of thickness (stress * length^2).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct UnitLabels {
+    /// Unit of length, e.g. `mm`.
+    pub length: String,
+    /// Unit of stress, e.g. `MPa`.
+    pub stress: String,
+    /// Unit of time, e.g. `s`.
+    pub time: String,
+}
+
+/// The kinds of quantity that appear in the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A length.
+    Length,
+    /// A stress or pressure.
+    Stress,
+    /// A time of the analysis.
+    Time,
+    /// A force per unit of thickness: stress * length.
+    Force,
+    /// An energy per unit of thickness: stress * length^2.
+    Energy,
+    /// An angle in radians.
+    Angle,
+    /// Seconds on the wall clock.
+    WallClock,
+    /// A pure number.
+    Number,
+}
+
+impl UnitLabels {
+    /// Label of a quantity, empty if the base units it is made of were not given (or if it is a pure number).
+    pub fn label(&self, quantity: Quantity) -> String {
+        match quantity {
+            Quantity::Length => self.length.clone(),
+            Quantity::Stress => self.stress.clone(),
+            Quantity::Time => self.time.clone(),
+            Quantity::Force => self.product(""),
+            Quantity::Energy => self.product("^2"),
+            Quantity::Angle => "rad".into(),
+            Quantity::WallClock => "s".into(),
+            Quantity::Number => String::new(),
+        }
+    }
+
+    fn product(&self, power: &str) -> String {
+        if self.stress.is_empty() || self.length.is_empty() {
+            return String::new();
+        }
+        format!("{} {}{power}", self.stress, self.length)
+    }
+
+    /// `name / unit` (the form of ISO 80000), or the bare name where no unit is known.
+    pub fn axis(&self, name: &str, quantity: Quantity) -> String {
+        match self.label(quantity) {
+            unit if unit.is_empty() => name.to_owned(),
+            unit if unit.contains(' ') => format!("{name} / ({unit})"),
+            unit => format!("{name} / {unit}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_compose_only_from_known_units() {
+        let units = UnitLabels {
+            length: "mm".into(),
+            stress: "MPa".into(),
+            time: String::new(),
+        };
+        assert_eq!(units.axis("W", Quantity::Energy), "W / (MPa mm^2)");
+        assert_eq!(units.axis("t", Quantity::Time), "t");
+        assert_eq!(UnitLabels::default().axis("F", Quantity::Force), "F");
+    }
+}

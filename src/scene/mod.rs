@@ -1,0 +1,100 @@
+//! The scene: what the user writes in TOML, checked so that every complaint names file, line, key and what is allowed.
+//!
+//! ```text
+//! text + --set  ->  tree with positions  ->  structure (JSON schema)  ->  Scene  ->  rules  ->  build  ->  Model
+//! ```
+//!
+//! [`Scene`] is plain data with all defaults filled in; a program may as well make one itself, and `build` either kind.
+
+mod build;
+mod grammar;
+mod issue;
+mod numerics;
+mod rules;
+mod schema;
+mod set;
+mod source;
+mod spec;
+mod tree;
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+pub use build::build;
+pub use grammar::Grammar;
+pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
+pub use numerics::{Integration, Numerics, Projection, Sites};
+pub use source::Source;
+pub use spec::{
+    BodySpec, Components, ContactSpec, Course, DriveSpec, MaterialSpec, Motion, OutputSpec, Scene, Side, SupportSpec,
+    TimeSpec, TimeTable, Units,
+};
+
+impl Scene {
+    /// Reads and checks a scene file, with `--set` arguments (`PATH=VALUE`) applied first. The source is returned for
+    /// [`Source::locate`], which gives later errors (of `build`) their lines.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, each with its place.
+    pub fn load(file: &Path, sets: &[String]) -> Result<(Self, Source), SceneError> {
+        let text = std::fs::read_to_string(file).map_err(|error| {
+            let message = format!("cannot read the scene {}: {error}", file.display());
+            SceneError::from(Issue::value(KeyPath::default(), message).allowed("a TOML file in UTF-8"))
+        })?;
+        Self::parse(file, text, sets)
+    }
+
+    /// As [`Scene::load`] with the text at hand; `file` is for messages only.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn parse(file: &Path, text: String, sets: &[String]) -> Result<(Self, Source), SceneError> {
+        let grammar = Scene::grammar();
+        let mut source = Source::parse(file, text)?;
+        for argument in sets {
+            source.set(&grammar, argument)?;
+        }
+        let scene = read(&grammar, &source).map_err(|error| source.locate(error))?;
+        Ok((scene, source))
+    }
+
+    /// The structure of a scene as a JSON schema.
+    pub fn grammar() -> Grammar {
+        Grammar::new(schemars::schema_for!(Scene).to_value())
+    }
+
+    /// Rules that join several values; [`Scene::load`] has applied them already.
+    ///
+    /// # Errors
+    /// Everything that is wrong, without lines.
+    pub fn check(&self) -> Result<(), SceneError> {
+        fail_on(rules::check(self))
+    }
+}
+
+fn fail_on(issues: Vec<Issue>) -> Result<(), SceneError> {
+    if issues.is_empty() { Ok(()) } else { Err(SceneError(issues)) }
+}
+
+fn read(grammar: &Grammar, source: &Source) -> Result<Scene, SceneError> {
+    fail_on(grammar.check(&source.root))?;
+    // what fits the schema can be read; this is the net below the schema
+    let read = Scene::deserialize(source.root.to_value());
+    let mut scene = read.map_err(|error| SceneError::from(Issue::value(KeyPath::default(), error.to_string())))?;
+    scene.check()?;
+    scene.fill_in_defaults();
+    Ok(scene)
+}
+
+impl Scene {
+    /// Defaults that the structs do not know: the parameters of the laws.
+    fn fill_in_defaults(&mut self) {
+        for contact in &mut self.contact {
+            let law = asperity_laws::parse(contact.law.clone()).ok();
+            if let Some(table) = law.and_then(|law| toml::Table::try_from(&*law).ok()) {
+                contact.law = table;
+            }
+        }
+    }
+}

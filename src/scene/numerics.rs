@@ -1,0 +1,77 @@
+//! Numerical choices of one contact: measured by the trade study, defaulted for everybody else.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How a contact is discretized.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Numerics {
+    /// Where the contact conditions hold.
+    pub sites: Sites,
+    /// How a nonmortar point finds its partner.
+    pub projection: Projection,
+    /// How the nonmortar edge is cut for integration.
+    pub integration: Integration,
+    /// Gauss points on each element or segment; degree + 1, at least 3, if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 32))]
+    pub points: Option<usize>,
+    /// Factor on the normal augmentation `E/h` (dimensionless).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub r: f64,
+    /// Factor on the tangential augmentation `E/h` (dimensionless); as `r` if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub r_tangential: Option<f64>,
+    /// Degree of the multipliers; that of the nonmortar edge if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 8))]
+    pub multiplier_degree: Option<usize>,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self {
+            sites: Sites::Quadrature,
+            projection: Projection::Auto,
+            integration: Integration::Element,
+            points: None,
+            r: 1.0,
+            r_tangential: None,
+            multiplier_degree: None,
+        }
+    }
+}
+
+/// Where the contact conditions hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Sites {
+    /// Quadrature points, each with its own gap and slip: resolves a contact edge inside an element.
+    Quadrature,
+    /// Control points, with weighted averages: the solution does not depend on `r` at all.
+    Nodal,
+}
+
+/// How a nonmortar point finds its partner on the mortar curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Projection {
+    /// The closest point.
+    Closest,
+    /// Along the nonmortar normal: smooth at the corners of a polygon.
+    Ray,
+    /// `closest` on smooth mortar curves, `ray` on those with corners.
+    Auto,
+}
+
+/// How the nonmortar edge is cut for integration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Integration {
+    /// Gauss points on the nonmortar elements.
+    Element,
+    /// Gauss points on segments between the ends of nonmortar and projected mortar elements: passes the patch test exactly.
+    Segment,
+}

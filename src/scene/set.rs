@@ -1,0 +1,119 @@
+//! `--set PATH=VALUE`: one value of the scene replaced from the command line, before anything is validated.
+//!
+//! `PATH` is a dotted key of TOML in which entries of an array are numbered from 0; `VALUE` is a value of TOML, so text
+//! needs quotes: `--set 'contact.0.law.friction=0.1'`, `--set 'title="steep"'`.
+
+use serde_json::Value as Schema;
+use toml::de::DeTable;
+
+use super::grammar::{Grammar, Step};
+use super::issue::{Issue, KeyPath, Place, SceneError};
+use super::source::{Source, set_argument};
+use super::tree::{Item, Node, Origin};
+
+impl Source {
+    /// Applies one `--set` argument.
+    ///
+    /// # Errors
+    /// The argument is not `PATH=VALUE`, or the scene has no such key; the message lists the keys known at that level.
+    pub fn set(&mut self, grammar: &Grammar, argument: &str) -> Result<(), SceneError> {
+        let index = self.sets.len();
+        self.sets.push(argument.to_string());
+        let result = parse(argument, index).and_then(|(path, value)| {
+            let slot = slot(&mut self.root, grammar, &path, index)?;
+            *slot = value;
+            Ok(())
+        });
+        let place = Some(Place::Argument(set_argument(argument)));
+        result.map_err(|issue| SceneError::from(Issue { place, ..issue }))
+    }
+}
+
+/// Path and value of an argument.
+fn parse(argument: &str, index: usize) -> Result<(KeyPath, Node), Issue> {
+    let wrong = |message: &str| Issue::value(KeyPath::default(), message).allowed("PATH=VALUE, e.g. time.steps=152");
+    let (path, value) = argument.split_once('=').ok_or_else(|| wrong("no `=` in the argument of --set"))?;
+    let text = format!("{path}=0");
+    let keys = DeTable::parse(&text).map_err(|_| wrong(&format!("{path:?} is not a dotted key")))?;
+    let path = chain(keys.get_ref()).ok_or_else(|| wrong(&format!("{path:?} is not a dotted key")))?;
+
+    let text = format!("value={value}");
+    let parsed = DeTable::parse(&text).map_err(|error| {
+        Issue::value(path.clone(), format!("`{value}` is not a value of TOML: {}", error.message()))
+            .allowed("a number, \"text\", true, [list], { key = value }")
+            .help("text needs quotes of its own: --set 'title=\"steep flanks\"'")
+    })?;
+    let locate = |_| Origin::Set(index);
+    let tree = Node::from_table(&parsed, &locate).map_err(|(_, message)| Issue::value(path.clone(), message))?;
+    match tree.item {
+        Item::Table(mut map) if map.len() == 1 => match map.remove("value") {
+            Some(node) => Ok((path, node)),
+            None => Err(wrong("no value after `=`")),
+        },
+        _ => Err(wrong("more than one value in the argument of --set")),
+    }
+}
+
+/// The keys of a document that holds nothing but one dotted key.
+fn chain(table: &DeTable<'_>) -> Option<KeyPath> {
+    let mut keys = vec![];
+    let mut table = table;
+    loop {
+        let mut entries = table.iter();
+        let (key, value) = entries.next().filter(|_| table.len() == 1)?;
+        keys.push(key.get_ref().to_string());
+        match value.get_ref().as_table() {
+            Some(inner) => table = inner,
+            None => return Some(keys.into_iter().collect()),
+        }
+    }
+}
+
+/// The node at `path`; makes keys that are absent but known.
+fn slot<'a>(root: &'a mut Node, grammar: &Grammar, path: &KeyPath, index: usize) -> Result<&'a mut Node, Issue> {
+    let mut node = root;
+    let mut schema: &Schema = grammar.root();
+    let mut walked = KeyPath::default();
+    for key in path.segments() {
+        let step = grammar.step(schema, node, key);
+        let (here, found) = (walked.at(key), node.found());
+        node = match &mut node.item {
+            Item::Array(nodes) => entry(nodes, key, &here)?,
+            Item::Table(map) => {
+                let names: Vec<String> = match &step {
+                    Step::Known(_) | Step::Open => vec![],
+                    Step::Name(_) => map.keys().cloned().collect(),
+                    Step::Unknown(known) => known.clone(),
+                };
+                let makes = matches!(step, Step::Known(_) | Step::Open);
+                if !makes && !map.contains_key(key) {
+                    let message = format!("unknown key `{key}`{}", below(&walked));
+                    return Err(Issue::key(here, message).known(key, &names));
+                }
+                map.entry(key.clone()).or_insert_with(|| Node::empty_table(index))
+            }
+            Item::Leaf(_) => return Err(Issue::key(here, format!("`{walked}` is {found} and has no keys"))),
+        };
+        schema = match step {
+            Step::Known(inner) | Step::Name(inner) => inner,
+            Step::Open | Step::Unknown(_) => grammar.anything(),
+        };
+        walked = here;
+    }
+    Ok(node)
+}
+
+fn below(table: &KeyPath) -> String {
+    if table.segments().is_empty() { String::new() } else { format!(" in `{table}`") }
+}
+
+fn entry<'a>(nodes: &'a mut [Node], key: &str, here: &KeyPath) -> Result<&'a mut Node, Issue> {
+    let count = nodes.len();
+    let wrong = Issue::key(here.clone(), format!("no entry `{key}` in a list of {count}"));
+    let allowed = match count {
+        0 => "(the list is empty)".to_string(),
+        _ => format!("0 to {}", count - 1),
+    };
+    let found = key.parse::<usize>().ok().and_then(|k| nodes.get_mut(k));
+    found.ok_or_else(|| wrong.allowed(allowed))
+}

@@ -1,0 +1,115 @@
+//! The scene as written: a tree of TOML values in which each remembers where it came from.
+//!
+//! Tagged enums lose the positions of TOML while they are read, so positions are looked up here afterwards, by key.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Value};
+
+/// Where a key or a value was written.
+#[derive(Clone, Debug)]
+pub(super) enum Origin {
+    /// Bytes of the file.
+    File(Range<usize>),
+    /// The n-th `--set` argument.
+    Set(usize),
+}
+
+/// A value with its origin.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    /// Where the key stands; for an entry of an array, where the value stands.
+    pub key_at: Origin,
+    /// Where the value stands; for a table with a header, the header.
+    pub at: Origin,
+    pub item: Item,
+}
+
+/// A value of TOML.
+#[derive(Clone, Debug)]
+pub(super) enum Item {
+    Table(BTreeMap<String, Node>),
+    Array(Vec<Node>),
+    /// Anything that is neither table nor array.
+    Leaf(Value),
+}
+
+/// Turns the span of a piece of text into its origin.
+pub(super) type Locator<'a> = &'a dyn Fn(Range<usize>) -> Origin;
+
+/// A number that cannot be held, and where it stands.
+pub(super) type BadNumber = (Origin, String);
+
+impl Node {
+    /// An empty table that was called for by the n-th `--set` argument.
+    pub fn empty_table(set: usize) -> Self {
+        Self { key_at: Origin::Set(set), at: Origin::Set(set), item: Item::Table(BTreeMap::new()) }
+    }
+
+    /// The tree below a parsed document or table.
+    pub fn from_table(table: &Spanned<DeTable<'_>>, locate: Locator) -> Result<Self, BadNumber> {
+        let at = locate(table.span());
+        Ok(Self { key_at: at.clone(), at, item: entries(table.get_ref(), locate)? })
+    }
+
+    fn from_value(key_at: Origin, value: &Spanned<DeValue<'_>>, locate: Locator) -> Result<Self, BadNumber> {
+        let at = locate(value.span());
+        let item = match value.get_ref() {
+            DeValue::Table(table) => entries(table, locate)?,
+            DeValue::Array(array) => {
+                let nodes = array.iter().map(|v| Self::from_value(locate(v.span()), v, locate));
+                Item::Array(nodes.collect::<Result<_, _>>()?)
+            }
+            DeValue::String(text) => Item::Leaf(Value::String(text.to_string())),
+            DeValue::Boolean(flag) => Item::Leaf(Value::Boolean(*flag)),
+            DeValue::Datetime(time) => Item::Leaf(Value::Datetime(*time)),
+            DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
+                Ok(number) => Item::Leaf(Value::Integer(number)),
+                Err(_) => return Err((at, format!("the integer {} does not fit into 64 bits", number.as_str()))),
+            },
+            DeValue::Float(number) => match number.as_str().parse() {
+                Ok(number) => Item::Leaf(Value::Float(number)),
+                Err(_) => return Err((at, format!("{} is not a number", number.as_str()))),
+            },
+        };
+        Ok(Self { key_at, at, item })
+    }
+
+    /// The entry named or numbered `key`.
+    pub fn get(&self, key: &str) -> Option<&Node> {
+        match &self.item {
+            Item::Table(map) => map.get(key),
+            Item::Array(nodes) => nodes.get(key.parse::<usize>().ok()?),
+            Item::Leaf(_) => None,
+        }
+    }
+
+    /// The plain TOML value without positions.
+    pub fn to_value(&self) -> Value {
+        match &self.item {
+            Item::Table(map) => Value::Table(map.iter().map(|(k, n)| (k.clone(), n.to_value())).collect()),
+            Item::Array(nodes) => Value::Array(nodes.iter().map(Node::to_value).collect()),
+            Item::Leaf(value) => value.clone(),
+        }
+    }
+
+    /// What was found, for messages: `the string "abc"`, `the number 0.5`, `a table`.
+    pub fn found(&self) -> String {
+        match &self.item {
+            Item::Table(_) => "a table".into(),
+            Item::Array(nodes) => format!("a list of {}", nodes.len()),
+            Item::Leaf(Value::String(text)) => format!("the string {text:?}"),
+            Item::Leaf(Value::Integer(number)) => format!("the integer {number}"),
+            Item::Leaf(Value::Float(number)) => format!("the number {number:?}"),
+            Item::Leaf(value) => value.to_string(),
+        }
+    }
+}
+
+fn entries(table: &DeTable<'_>, locate: Locator) -> Result<Item, BadNumber> {
+    let node = |key: Range<usize>, value| Node::from_value(locate(key), value, locate);
+    let pairs = table.iter().map(|(key, value)| Ok((key.get_ref().to_string(), node(key.span(), value)?)));
+    Ok(Item::Table(pairs.collect::<Result<_, _>>()?))
+}

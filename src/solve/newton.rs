@@ -1,0 +1,132 @@
+//! Semismooth Newton for one step.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::contact::ContactStatus;
+use crate::math::{LinearSolver, SolveError};
+use crate::model::{Evaluation, Model, State, evaluate};
+
+use super::predictor::predict;
+
+/// Largest number of iterations of one step.
+const MAX_ITERATIONS: usize = 25;
+/// Accepted residual relative to the largest nodal force.
+const RELATIVE: f64 = 1e-10;
+/// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
+const ROUND_OFF: f64 = 1e-14;
+
+/// Why a step was thrown away.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StepFailure {
+    /// No convergence.
+    #[error("Newton's method did not converge in {iterations} iterations (residual {residual:.1e} of the largest nodal force)")]
+    Iterations {
+        /// Linear solves.
+        iterations: usize,
+        /// Last residual over the largest nodal force.
+        residual: f64,
+    },
+    /// A body was turned inside out and no shorter step helped.
+    #[error("a body is turned inside out (det F <= 0) in iteration {0}")]
+    Inverted(usize),
+    /// The linear system could not be solved.
+    #[error("{0}")]
+    Linear(#[from] SolveError),
+    /// Stopped from outside.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// A converged step.
+pub struct NewtonReport {
+    /// State at the end of the step, ledger included.
+    pub state: State,
+    /// Evaluation there.
+    pub evaluation: Evaluation,
+    /// Linear solves.
+    pub iterations: usize,
+    /// Largest residual entry of every iterate.
+    pub residuals: Vec<f64>,
+}
+
+/// Solves the step from `start` to `time`. On failure `iterations` still counts the work done.
+///
+/// # Errors
+/// [`StepFailure`]; `start` is untouched.
+pub fn solve_step(
+    model: &Model,
+    start: &State,
+    time: f64,
+    solver: &mut dyn LinearSolver,
+    interrupt: &AtomicBool,
+    iterations: &mut usize,
+) -> Result<NewtonReport, StepFailure> {
+    let mut trial = predict(model, start, time);
+    let mut evaluation = evaluate(model, start, &trial, true).ok_or(StepFailure::Inverted(0))?;
+    let mut residuals = Vec::new();
+    let floor = ROUND_OFF * model.modulus * model.size();
+    for iteration in 0..=MAX_ITERATIONS {
+        let size = evaluation.residual.iter().fold(0.0_f64, |m, v| if v.is_nan() { f64::NAN } else { m.max(v.abs()) });
+        residuals.push(size);
+        if size <= RELATIVE * evaluation.force_scale + floor {
+            let state = commit(model, start, trial, &evaluation);
+            return Ok(NewtonReport { state, evaluation, iterations: iteration, residuals });
+        }
+        if iteration == MAX_ITERATIONS || size.is_nan() {
+            let residual = size / evaluation.force_scale;
+            return Err(StepFailure::Iterations { iterations: iteration, residual });
+        }
+        if interrupt.load(Ordering::Relaxed) {
+            return Err(StepFailure::Interrupted);
+        }
+        *iterations += 1;
+        let right: Vec<f64> = evaluation.residual.iter().map(|v| -v).collect();
+        let mut system = evaluation.system.take().expect("evaluated with tangent");
+        support_floating(model, &evaluation, &mut system.interface);
+        let increment = solver.solve(&system, &right)?;
+        (trial, evaluation) =
+            update(model, start, &trial, &increment).ok_or(StepFailure::Inverted(iteration + 1))?;
+    }
+    unreachable!("the last iteration returns")
+}
+
+/// Adds the increment, shortened where a body would be turned inside out.
+fn update(model: &Model, start: &State, trial: &State, increment: &[f64]) -> Option<(State, Evaluation)> {
+    let mut factor = 1.0;
+    for _ in 0..8 {
+        let mut next = trial.clone();
+        next.advance(model, increment, factor);
+        if let Some(evaluation) = evaluate(model, start, &next, true) {
+            return Some((next, evaluation));
+        }
+        factor *= 0.5;
+    }
+    None
+}
+
+/// A body under force control that touches nothing has no stiffness against its load. A spring on its load equation lets
+/// it travel by one element length per iteration until it touches; it acts on the increment alone, never on the solution.
+fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut crate::math::Triplets) {
+    for (motion, unknown) in model.motions.iter().zip(&model.equations.of_motion) {
+        let Some(e) = *unknown else { continue };
+        let touches = model.pairs.iter().zip(&evaluation.interfaces).any(|(pair, found)| {
+            (pair.nonmortar.body == motion.body || pair.mortar.body == motion.body)
+                && found.sites.iter().any(|s| s.status != ContactStatus::Open)
+        });
+        if !touches {
+            let load = evaluation.residual[e].abs();
+            let floor = f64::EPSILON * model.modulus;
+            entries.push((e, e, (load / model.element_size).max(floor)));
+        }
+    }
+}
+
+/// The trial state as the new committed one: internal variables, forces and work.
+fn commit(model: &Model, start: &State, mut trial: State, evaluation: &Evaluation) -> State {
+    for (pair, found) in trial.pairs.iter_mut().zip(&evaluation.interfaces) {
+        pair.laws.clone_from(&found.laws);
+        trial.ledger.dissipated += found.dissipated;
+    }
+    trial.ledger.settle(model, start, &trial.u, trial.time, evaluation);
+    trial
+}
