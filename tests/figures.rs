@@ -81,7 +81,7 @@ fn a_pass_is_drawn_whole() {
             });
             let upper = block([drive - 2.9, drive - 0.9], [40, 20], |x| {
                 let [low, high] = surfaces(x, drive);
-                [if low > high { middle(x) } else { high }, 1.6]
+                [if low > high { middle(x) } else { high }, 1.5]
             });
             let still = [vec![Point::zeros(); lower.points.len()], vec![Point::zeros(); upper.points.len()]];
             let centre = [0.5 * (drive - 1.9), 0.3];
@@ -96,7 +96,8 @@ fn a_pass_is_drawn_whole() {
         .collect();
     written.extend(data.write_bodies(&folder, &frames).unwrap());
     let expected = ["forces", "mu_global", "energy", "interface", "bodies"];
-    let expected: Vec<String> = expected.iter().flat_map(|name| ["svg", "png"].map(|kind| format!("{name}.{kind}"))).collect();
+    let expected: Vec<String> =
+        expected.iter().flat_map(|name| ["svg", "png"].map(|kind| format!("{name}.{kind}"))).collect();
     assert_eq!(names(&written), expected);
     // 84 mm and 174 mm at 400 dpi.
     assert_eq!(png_size(&folder.join("forces.png"))[0], 1323);

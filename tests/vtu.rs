@@ -118,9 +118,9 @@ fn annulus() -> Patch {
         weights: [ring, ring].concat().into_iter().map(|(_, weight)| weight).collect(),
         points,
     };
-    [(0, 0.3), (0, 0.8), (1, 0.4)].into_iter().fold(whole, |patch, (direction, knot)| {
-        patch.insert_knot(direction, knot).unwrap()
-    })
+    [(0, 0.3), (0, 0.8), (1, 0.4)]
+        .into_iter()
+        .fold(whole, |patch, (direction, knot)| patch.insert_knot(direction, knot).unwrap())
 }
 
 fn spline(degree: usize, knots: &[f64]) -> Arc<dyn Basis> {

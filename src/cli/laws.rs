@@ -1,7 +1,6 @@
 //! `asperity laws [NAME]`.
 
-use asperity::laws::info::{Kind, LawInfo};
-use asperity::laws::registry::{find, linked};
+use asperity::laws::{Kind, LawInfo, find, linked};
 use asperity::scene::{Issue, KeyPath, SceneError};
 
 use super::outcome::{Exit, Failure, say};

@@ -17,8 +17,6 @@ pub enum Exit {
     BadInput = 2,
     /// A step did not converge; results up to there are kept.
     NotConverged = 3,
-    /// Converged, but an audit found a violated property.
-    AuditFailed = 4,
     /// Stopped by the user; results up to there are kept.
     Interrupted = 5,
 }
@@ -34,6 +32,11 @@ impl Failure {
     /// The input cannot be used.
     pub fn input(message: impl Display) -> Self {
         Self { exit: Exit::BadInput, message: format!("error: {message}") }
+    }
+
+    /// The computation came to an end before its time.
+    pub fn not_converged(message: impl Display) -> Self {
+        Self { exit: Exit::NotConverged, message: format!("error: {message}") }
     }
 
     /// The program or the machine is at fault.

@@ -15,7 +15,7 @@ pub use build::{BodySpec, Builder, ModelError, PairSpec};
 pub use equations::{Dof, Equations};
 pub use motion::{Control, Motion, Table};
 pub use record::{InterfaceRow, Record, interface_rows, record};
-pub use state::{Ledger, PairState, State};
+pub use state::{Ledger, PairState, State, Trend};
 
 use std::sync::Arc;
 

@@ -45,6 +45,16 @@ impl Ledger {
     }
 }
 
+/// How the last step moved, per time and apart from the rigid motion of driven bodies: what the next step is
+/// extrapolated from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trend {
+    /// Rates of the control points.
+    pub u: Vec<Point>,
+    /// Rates of the pressure and traction multipliers of each pair.
+    pub multipliers: Vec<[Vec<f64>; 2]>,
+}
+
 /// Configuration, multipliers and memory at one time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -56,6 +66,8 @@ pub struct State {
     pub pairs: Vec<PairState>,
     /// Work done so far.
     pub ledger: Ledger,
+    /// Rates of the last step; `None` before the first.
+    pub trend: Option<Trend>,
 }
 
 impl State {
@@ -74,6 +86,7 @@ impl State {
             u: vec![Point::zeros(); model.nodes()],
             pairs: pairs.collect(),
             ledger: Ledger { forces: vec![0.0; model.motions.len()], ..Default::default() },
+            trend: None,
         };
         state.prescribe(model, 0.0);
         state

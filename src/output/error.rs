@@ -38,18 +38,11 @@ impl OutputError {
     /// Closure for `map_err` that attaches the attempted action and the path to an i/o error.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_path_buf();
-        move |source| Self::Io {
-            action,
-            path,
-            source,
-        }
+        move |source| Self::Io { action, path, source }
     }
 
     /// A file whose content is not as expected.
     pub(crate) fn content(path: &Path, reason: impl Into<String>) -> Self {
-        Self::Content {
-            path: path.to_path_buf(),
-            reason: reason.into(),
-        }
+        Self::Content { path: path.to_path_buf(), reason: reason.into() }
     }
 }

@@ -74,10 +74,9 @@ impl RunFolder {
         let (history, interface) = (self.history(), self.interface());
         match resume_after {
             None => Ok((HistoryWriter::create(&history)?, InterfaceWriter::create(&interface, variables)?)),
-            Some(step) => Ok((
-                HistoryWriter::resume(&history, step)?,
-                InterfaceWriter::resume(&interface, variables, step)?,
-            )),
+            Some(step) => {
+                Ok((HistoryWriter::resume(&history, step)?, InterfaceWriter::resume(&interface, variables, step)?))
+            }
         }
     }
 

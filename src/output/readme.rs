@@ -39,12 +39,7 @@ pub fn text(title: &str, units: &UnitLabels, variables: &[(String, String)]) -> 
 
 fn unit_line(units: &UnitLabels) -> String {
     let name = |label: &str| if label.is_empty() { "any consistent".to_owned() } else { label.to_owned() };
-    format!(
-        "length = {}, stress = {}, time = {}",
-        name(&units.length),
-        name(&units.stress),
-        name(&units.time)
-    )
+    format!("length = {}, stress = {}, time = {}", name(&units.length), name(&units.stress), name(&units.time))
 }
 
 fn section(text: &mut String, file: &str, columns: &[(&str, Quantity, &str)], units: &UnitLabels) {

@@ -72,11 +72,7 @@ mod tests {
 
     #[test]
     fn labels_compose_only_from_known_units() {
-        let units = UnitLabels {
-            length: "mm".into(),
-            stress: "MPa".into(),
-            time: String::new(),
-        };
+        let units = UnitLabels { length: "mm".into(), stress: "MPa".into(), time: String::new() };
         assert_eq!(units.axis("W", Quantity::Energy), "W / (MPa mm^2)");
         assert_eq!(units.axis("t", Quantity::Time), "t");
         assert_eq!(UnitLabels::default().axis("F", Quantity::Force), "F");

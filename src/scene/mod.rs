@@ -7,10 +7,13 @@
 //! [`Scene`] is plain data with all defaults filled in; a program may as well make one itself, and `build` either kind.
 
 mod build;
+mod fields;
 mod grammar;
 mod issue;
 mod numerics;
+mod recorder;
 mod rules;
+mod run;
 mod schema;
 mod set;
 mod source;
@@ -25,6 +28,7 @@ pub use build::build;
 pub use grammar::Grammar;
 pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
 pub use numerics::{Integration, Numerics, Projection, Sites};
+pub use run::{run, sizes, status_name};
 pub use source::Source;
 pub use spec::{
     BodySpec, Components, ContactSpec, Course, DriveSpec, MaterialSpec, Motion, OutputSpec, Scene, Side, SupportSpec,

@@ -6,14 +6,19 @@ use crate::contact::ContactStatus;
 use crate::math::{LinearSolver, SolveError};
 use crate::model::{Evaluation, Model, State, evaluate};
 
-use super::predictor::predict;
+use super::predictor::{first_guess, trend};
 
 /// Largest number of iterations of one step.
 const MAX_ITERATIONS: usize = 25;
 /// Accepted residual relative to the largest nodal force.
-const RELATIVE: f64 = 1e-10;
+const RELATIVE: f64 = 1e-9;
 /// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
 const ROUND_OFF: f64 = 1e-14;
+
+/// Growth of the residual that a full step may show.
+const GROWTH: f64 = 1.0;
+/// Lengths tried when a full step is no good: 1, 1/2, 1/4, ...
+const HALVINGS: i32 = 7;
 
 /// Why a step was thrown away.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -61,7 +66,7 @@ pub fn solve_step(
     interrupt: &AtomicBool,
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
-    let mut trial = predict(model, start, time);
+    let mut trial = first_guess(model, start, time).ok_or(StepFailure::Inverted(0))?;
     let mut evaluation = evaluate(model, start, &trial, true).ok_or(StepFailure::Inverted(0))?;
     let mut residuals = Vec::new();
     let floor = ROUND_OFF * model.modulus * model.size();
@@ -85,23 +90,45 @@ pub fn solve_step(
         support_floating(model, &evaluation, &mut system.interface);
         let increment = solver.solve(&system, &right)?;
         (trial, evaluation) =
-            update(model, start, &trial, &increment).ok_or(StepFailure::Inverted(iteration + 1))?;
+            update(model, start, &trial, &increment, norm(&evaluation)).ok_or(StepFailure::Inverted(iteration + 1))?;
     }
     unreachable!("the last iteration returns")
 }
 
-/// Adds the increment, shortened where a body would be turned inside out.
-fn update(model: &Model, start: &State, trial: &State, increment: &[f64]) -> Option<(State, Evaluation)> {
-    let mut factor = 1.0;
-    for _ in 0..8 {
+/// Adds the increment. A step along which the residual grows beyond [`GROWTH`] is halved a few times and the best length
+/// taken (the residual of a semismooth system need not fall, so that is no failure); one that turns a body inside out
+/// is halved until it does not.
+fn update(model: &Model, start: &State, trial: &State, increment: &[f64], before: f64) -> Option<(State, Evaluation)> {
+    let moved = |factor: f64| {
         let mut next = trial.clone();
         next.advance(model, increment, factor);
-        if let Some(evaluation) = evaluate(model, start, &next, true) {
-            return Some((next, evaluation));
-        }
-        factor *= 0.5;
+        next
+    };
+    let full = moved(1.0);
+    if let Some(evaluation) = evaluate(model, start, &full, true)
+        && norm(&evaluation) <= GROWTH * before
+    {
+        return Some((full, evaluation));
     }
-    None
+    let mut best: Option<(f64, f64)> = None;
+    for k in 0..HALVINGS {
+        let factor = 0.5_f64.powi(k);
+        if let Some(size) = evaluate(model, start, &moved(factor), false).as_ref().map(norm) {
+            if best.is_none_or(|(smallest, _)| size < smallest) {
+                best = Some((size, factor));
+            }
+            if size <= before {
+                break;
+            }
+        }
+    }
+    let next = moved(best?.1);
+    evaluate(model, start, &next, true).map(|evaluation| (next, evaluation))
+}
+
+/// Euclidean norm of the residual.
+fn norm(evaluation: &Evaluation) -> f64 {
+    evaluation.residual.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// A body under force control that touches nothing has no stiffness against its load. A spring on its load equation lets
@@ -127,6 +154,7 @@ fn commit(model: &Model, start: &State, mut trial: State, evaluation: &Evaluatio
         pair.laws.clone_from(&found.laws);
         trial.ledger.dissipated += found.dissipated;
     }
+    trial.trend = Some(trend(model, start, &trial));
     trial.ledger.settle(model, start, &trial.u, trial.time, evaluation);
     trial
 }

@@ -9,6 +9,8 @@ use super::text;
 pub const PER_MM: f64 = 72.0 / 25.4;
 /// Corners of a line leave it by less than this (in points) to be dropped.
 const FLAT: f64 = 0.03;
+/// Stands for the prefix of ids until the whole figure is known.
+const CLIP: &str = "@clip-";
 
 /// An axis-parallel box: left, top, right, bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,7 +145,7 @@ impl Canvas {
         let (Rect { left, top, .. }, width, height) = (frame, frame.width(), frame.height());
         let _ = writeln!(
             self.body,
-            "<clipPath id=\"c{id}\"><rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.2}\"/></clipPath>\n<g clip-path=\"url(#c{id})\">"
+            "<clipPath id=\"{CLIP}{id}\"><rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.2}\"/></clipPath>\n<g clip-path=\"url(#{CLIP}{id})\">"
         );
         draw(self);
         self.body.push_str("</g>\n");
@@ -155,9 +157,14 @@ impl Canvas {
         let [wide, high] = self.size.map(|points| points / PER_MM);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide:.2}mm\" height=\"{high:.2}mm\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{}</svg>\n",
-            self.body
+            self.body.replace(CLIP, &format!("c{:x}-", fingerprint(&self.body)))
         )
     }
+}
+
+/// FNV-1a hash: tells figures apart that stand in one HTML page, where ids must be unique.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// SVG path through points, coordinates to 0.01 pt, corners that do not show dropped.

@@ -2,14 +2,16 @@
 
 use super::axis::Axis;
 use super::canvas::{Anchor, Canvas, PER_MM, Rect, Stroke, path};
-use super::palette::{GREY, GRID, INK};
+use super::frame::{Frame, SMALL, TICK};
+use super::palette::{GREY, INK};
 use super::{labels, text};
 
 /// Width of a single-column figure in points.
 pub const COLUMN: f64 = 84.0 * PER_MM;
-const TICK: f64 = 2.5;
-const SMALL: f64 = 6.8;
 const GAP: f64 = 9.0;
+const SWATCH: f64 = 11.0;
+const KEYS_PER_ROW: usize = 3;
+const KEY_CELL: f64 = (COLUMN - 18.0) / KEYS_PER_ROW as f64;
 
 /// One curve.
 #[derive(Clone, Debug)]
@@ -71,6 +73,8 @@ pub struct Key {
     pub colour: String,
     /// Dash pattern of the swatch.
     pub dash: &'static str,
+    /// Thickness of the swatch in points.
+    pub width: f64,
 }
 
 /// A figure of stacked frames.
@@ -82,36 +86,22 @@ pub struct Column {
     pub x_range: [f64; 2],
     /// Frames from top to bottom.
     pub charts: Vec<Chart>,
-    /// Legend, in rows of `keys_per_row`.
+    /// Legend above the frames.
     pub keys: Vec<Key>,
-    /// Entries per row of the legend.
-    pub keys_per_row: usize,
+    /// Direct labels repeat the legend and may be dropped where they find no place.
+    pub labels_repeat_keys: bool,
     /// Letters above the top frame at abscissas.
     pub marks: Vec<(f64, String)>,
-}
-
-/// A frame with its axes.
-pub struct Frame {
-    /// Inner box on the sheet.
-    pub rect: Rect,
-    x: Axis,
-    y: Axis,
-}
-
-impl Frame {
-    /// Position of a data point on the sheet.
-    pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.rect.left + self.x.share(x) * self.rect.width(), self.rect.bottom - self.y.share(y) * self.rect.height()]
-    }
 }
 
 impl Column {
     /// The figure as SVG. Curves that find no free place for their direct label get a legend entry.
     pub fn draw(mut self) -> String {
         let frames = self.frames();
-        let placed: Vec<_> = self.charts.iter().zip(&frames).map(|(chart, frame)| labels::place(chart, frame)).collect();
+        let placed: Vec<_> =
+            self.charts.iter().zip(&frames).map(|(chart, frame)| labels::place(chart, frame)).collect();
         let crowded = placed.iter().flatten().any(Option::is_none);
-        if crowded && self.keys.is_empty() {
+        if crowded && !self.labels_repeat_keys {
             self.move_labels_to_legend();
             return self.draw();
         }
@@ -119,10 +109,10 @@ impl Column {
         let mut canvas = Canvas::new(COLUMN, frames[last].rect.bottom + 25.0);
         self.draw_legend(&mut canvas);
         for (k, (chart, frame)) in self.charts.iter().zip(&frames).enumerate() {
-            draw_frame(&mut canvas, frame, &chart.y_label, (k == last).then_some(self.x_label.as_str()));
+            frame.draw(&mut canvas, &chart.y_label, (k == last).then_some(self.x_label.as_str()));
             chart.draw_data(&mut canvas, frame);
             for (series, at) in chart.series.iter().zip(&placed[k]) {
-                if let Some(at) = at.filter(|_| !series.label.is_empty()) {
+                if let Some(at) = at.filter(|at| at[0].is_finite()) {
                     canvas.styled_text(at, &series.label, Anchor::Middle, text::SIZE, &series.colour, 0.0);
                 }
             }
@@ -137,9 +127,11 @@ impl Column {
             self.charts.iter().map(|chart| Axis::new(chart.y_range, (chart.height / 24.0).round() as usize)).collect();
         let labels = axes.iter().flat_map(|axis| &axis.labels).map(|label| text::width(label, SMALL));
         let left = 17.0 + TICK + labels.fold(8.0, f64::max);
-        let rows = self.keys.len().div_ceil(self.keys_per_row.max(1));
+        let rows = self.key_cells().last().map_or(0, |cell| cell[1] + 1);
         let power = axes.iter().any(|axis| axis.exponent != 0);
-        let mut top = 5.0 + 10.0 * rows as f64 + if power || !self.marks.is_empty() { 7.0 } else { 0.0 };
+        let above = if power || !self.marks.is_empty() { 7.0 } else { 0.0 };
+        let legend = if rows > 0 { 2.0 + 10.0 * rows as f64 } else { 0.0 };
+        let mut top = 5.0 + legend + above;
         let mut frames = Vec::with_capacity(axes.len());
         for (chart, y) in self.charts.iter().zip(axes) {
             let rect = Rect { left, top, right: COLUMN - 6.0, bottom: top + chart.height };
@@ -153,33 +145,59 @@ impl Column {
         for series in self.charts.iter_mut().flat_map(|chart| &mut chart.series) {
             let label = std::mem::take(&mut series.label);
             if !label.is_empty() {
-                self.keys.push(Key { label, colour: series.colour.clone(), dash: series.dash });
+                self.keys.push(Key { label, colour: series.colour.clone(), dash: series.dash, width: 1.6 });
             }
         }
-        self.keys_per_row = 4;
+    }
+
+    /// Column and row of each legend entry in a grid of three columns; a long entry takes several.
+    fn key_cells(&self) -> Vec<[usize; 2]> {
+        let mut next = [0, 0];
+        let place = |key: &Key| {
+            let wanted = (SWATCH + 3.0 + text::width(&key.label, SMALL)) / KEY_CELL;
+            let span = (wanted.ceil() as usize).clamp(1, KEYS_PER_ROW);
+            if next[0] + span > KEYS_PER_ROW {
+                next = [0, next[1] + 1];
+            }
+            let cell = next;
+            next[0] += span;
+            cell
+        };
+        self.keys.iter().map(place).collect()
     }
 
     fn draw_legend(&self, canvas: &mut Canvas) {
-        let per_row = self.keys_per_row.max(1);
-        let cell = (COLUMN - 24.0) / per_row as f64;
-        for (k, key) in self.keys.iter().enumerate() {
-            let (x, y) = (20.0 + cell * (k % per_row) as f64, 10.0 + 10.0 * (k / per_row) as f64);
-            let stroke = Stroke { dash: key.dash, ..Stroke::solid(&key.colour, 1.6) };
-            canvas.polyline(&[[x, y - 2.5], [x + 11.0, y - 2.5]], stroke);
-            canvas.styled_text([x + 14.0, y], &key.label, Anchor::Start, SMALL, INK, 0.0);
+        for (key, [column, row]) in self.keys.iter().zip(self.key_cells()) {
+            let (x, y) = (15.0 + KEY_CELL * column as f64, 10.0 + 10.0 * row as f64);
+            let stroke = Stroke { dash: key.dash, ..Stroke::solid(&key.colour, key.width) };
+            canvas.polyline(&[[x, y - 2.5], [x + SWATCH, y - 2.5]], stroke);
+            canvas.styled_text([x + SWATCH + 3.0, y], &key.label, Anchor::Start, SMALL, INK, 0.0);
         }
     }
 
     fn draw_marks(&self, canvas: &mut Canvas, frame: &Frame) {
-        let Rect { top, left, right, .. } = frame.rect;
-        for (value, letter) in &self.marks {
-            let x = frame.place([*value, 0.0])[0];
-            if (left - 0.5..=right + 0.5).contains(&x) {
-                canvas.polyline(&[[x, top - 2.0], [x, top + 2.0]], Stroke::solid(GREY, 0.6));
-                canvas.styled_text([x, top - 3.5], letter, Anchor::Middle, SMALL, GREY, 0.0);
-            }
+        let top = frame.rect.top;
+        let mut marks: Vec<(f64, &str)> =
+            self.marks.iter().map(|(value, letter)| (frame.place([*value, 0.0])[0], letter.as_str())).collect();
+        marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let letters = spread(marks.iter().map(|mark| mark.0).collect());
+        for ((x, letter), at) in marks.into_iter().zip(letters) {
+            canvas.polyline(&[[x, top - 2.0], [x, top + 2.0]], Stroke::solid(GREY, 0.6));
+            canvas.styled_text([at, top - 3.5], letter, Anchor::Middle, SMALL, GREY, 0.0);
         }
     }
+}
+
+/// Moves ascending positions apart, half each, until letters there do not touch.
+fn spread(mut positions: Vec<f64>) -> Vec<f64> {
+    for _ in 0..20 {
+        for k in 1..positions.len() {
+            let lack = (6.5 - (positions[k] - positions[k - 1])).max(0.0);
+            positions[k - 1] -= 0.5 * lack;
+            positions[k] += 0.5 * lack;
+        }
+    }
+    positions
 }
 
 impl Chart {
@@ -197,34 +215,5 @@ impl Chart {
                 canvas.polyline(&points, Stroke { dash: series.dash, ..Stroke::solid(&series.colour, series.width) });
             }
         });
-    }
-}
-
-/// Grid, axes, ticks and labels; the horizontal axis is labelled where `x_label` is given.
-fn draw_frame(canvas: &mut Canvas, frame: &Frame, y_label: &str, x_label: Option<&str>) {
-    let Rect { left, top, right, bottom } = frame.rect;
-    for (tick, label) in frame.x.ticks.iter().zip(&frame.x.labels) {
-        let x = frame.place([*tick, 0.0])[0];
-        canvas.polyline(&[[x, top], [x, bottom]], Stroke::solid(GRID, 0.4));
-        canvas.polyline(&[[x, bottom], [x, bottom + TICK]], Stroke::solid(INK, 0.5));
-        if x_label.is_some() {
-            canvas.styled_text([x, bottom + TICK + 6.8], label, Anchor::Middle, SMALL, INK, 0.0);
-        }
-    }
-    for (tick, label) in frame.y.ticks.iter().zip(&frame.y.labels) {
-        let y = frame.place([0.0, *tick])[1];
-        // Zero separates resistance from drive and load from release: the one grid line worth seeing.
-        let line = if *tick == 0.0 { Stroke::solid(GREY, 0.5) } else { Stroke::solid(GRID, 0.4) };
-        canvas.polyline(&[[left, y], [right, y]], line);
-        canvas.polyline(&[[left - TICK, y], [left, y]], Stroke::solid(INK, 0.5));
-        canvas.styled_text([left - TICK - 1.5, y + 2.5], label, Anchor::End, SMALL, INK, 0.0);
-    }
-    canvas.polyline(&[[left, top], [left, bottom], [right, bottom]], Stroke::solid(INK, 0.6));
-    canvas.styled_text([left - 2.0, top - 3.5], &frame.y.power(), Anchor::End, SMALL, INK, 0.0);
-    canvas.styled_text([8.5, 0.5 * (top + bottom)], y_label, Anchor::Middle, text::SIZE, INK, -90.0);
-    if let Some(x_label) = x_label {
-        let power = frame.x.power();
-        let full = if power.is_empty() { x_label.to_owned() } else { format!("{x_label}  ({power})") };
-        canvas.text([0.5 * (left + right), bottom + 20.5], &full, Anchor::Middle);
     }
 }

@@ -20,12 +20,18 @@ pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> Stri
     ];
     let values = series.iter().flat_map(|series| &series.points).map(|point| point[1]).chain([0.0]);
     let chart = Chart {
-        y_label: units.axis("force per unit width *F*", Quantity::Force),
+        y_label: units.axis("force per width *F*", Quantity::Force),
         y_range: range(values, 0.06),
         height: 128.0,
         series,
         ..Chart::default()
     };
-    Column { marks: marks(&x, instants), x_range: x.range(), x_label: x.label, charts: vec![chart], ..Column::default() }
-        .draw()
+    Column {
+        marks: marks(&x, instants),
+        x_range: x.range(),
+        x_label: x.label,
+        charts: vec![chart],
+        ..Column::default()
+    }
+    .draw()
 }

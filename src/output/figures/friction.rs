@@ -1,7 +1,7 @@
 //! The global coefficient of friction against what the local law and the contact angle allow.
 
 use super::axis::range;
-use super::chart::{Band, Chart, Column, Series};
+use super::chart::{Band, Chart, Column, Key, Series};
 use super::instants::CONTACT_THRESHOLD;
 use super::palette::{BLUE, GREY, INK, PALE_BLUE};
 use super::{Abscissa, Instant, abscissa, marks};
@@ -21,26 +21,32 @@ pub fn svg(records: &[Record], local: Option<f64>, instants: &[Instant], units: 
         x.values.iter().zip(records.iter().zip(&loaded)).map(|(x, pair)| [*x, value(pair)]).collect()
     };
     let global = masked(&|record| record.mu_global);
-    let mut series = Vec::new();
-    let mut bands = Vec::new();
-    match local {
-        Some(mu) => {
-            bands.push(bounds(&masked(&|record| record.contact_angle), mu));
-            series.extend(bound_lines(&bands[0]));
-            series.push(level(&x, mu));
-        }
-        None => series.push(Series::new("tan *θ*", GREY, masked(&|record| tangent(record.contact_angle))).dashed("3 2")),
-    }
-    series.push(Series { width: 1.4, ..Series::new("*μ*_{global}", BLUE, global.clone()) });
-    let chart = Chart {
+    let angles = masked(&|record| record.contact_angle);
+    let mut chart = Chart {
         y_label: "global friction *μ*_{global} = *F*_x / *F*_y".into(),
         y_range: robust_range(&global, local),
         height: 128.0,
-        bands,
-        series,
+        ..Chart::default()
     };
-    Column { marks: marks(&x, instants), x_range: x.range(), x_label: x.label, charts: vec![chart], ..Column::default() }
-        .draw()
+    let keys = reference(&mut chart, &x, &angles, local);
+    chart.series.push(Series { width: 1.4, ..Series::new("*μ*_{global}", BLUE, global) });
+    let (marks, x_range) = (marks(&x, instants), x.range());
+    Column { marks, x_range, x_label: x.label, charts: vec![chart], keys, ..Column::default() }.draw()
+}
+
+/// Adds what `mu_global` is compared with and returns the legend it needs.
+fn reference(chart: &mut Chart, x: &Abscissa, angles: &[[f64; 2]], local: Option<f64>) -> Vec<Key> {
+    let Some(mu) = local else {
+        let frictionless = angles.iter().map(|[x, angle]| [*x, tangent(*angle)]).collect();
+        chart.series.push(Series::new("tan *θ*", GREY, frictionless).dashed("3 2"));
+        return Vec::new();
+    };
+    let band = bounds(angles, mu);
+    chart.series.extend(bound_lines(&band));
+    chart.series.push(level(x, mu));
+    chart.bands.push(band);
+    let label = "between tan(*θ* ± arctan *μ*_{local}), *θ* = mean contact angle".into();
+    vec![Key { label, colour: PALE_BLUE.into(), dash: "", width: 5.0 }]
 }
 
 fn loaded(records: &[Record]) -> Vec<bool> {
@@ -60,9 +66,9 @@ fn bounds(angles: &[[f64; 2]], mu: f64) -> Band {
 }
 
 fn bound_lines(band: &Band) -> [Series; 2] {
-    [(1, "tan(*θ* − *φ*)"), (2, "tan(*θ* + *φ*)")].map(|(edge, label)| Series {
-        width: 0.6,
-        ..Series::new(label, GREY, band.edges.iter().map(|values| [values[0], values[edge]]).collect())
+    [1, 2].map(|edge| Series {
+        width: 0.5,
+        ..Series::new("", GREY, band.edges.iter().map(|values| [values[0], values[edge]]).collect())
     })
 }
 

@@ -7,7 +7,12 @@ use crate::model::{InterfaceRow, Record};
 use crate::output::{Quantity, UnitLabels};
 
 /// One figure per contact pair that ever carries pressure: (pair, SVG).
-pub fn svgs(records: &[Record], rows: &[InterfaceRow], instants: &[Instant], units: &UnitLabels) -> Vec<(usize, String)> {
+pub fn svgs(
+    records: &[Record],
+    rows: &[InterfaceRow],
+    instants: &[Instant],
+    units: &UnitLabels,
+) -> Vec<(usize, String)> {
     let mut pairs: Vec<usize> = rows.iter().map(|row| row.pair).collect();
     pairs.sort_unstable();
     pairs.dedup();
@@ -15,7 +20,13 @@ pub fn svgs(records: &[Record], rows: &[InterfaceRow], instants: &[Instant], uni
     pairs.into_iter().filter_map(of_pair).collect()
 }
 
-fn svg(records: &[Record], rows: &[InterfaceRow], pair: usize, instants: &[Instant], units: &UnitLabels) -> Option<String> {
+fn svg(
+    records: &[Record],
+    rows: &[InterfaceRow],
+    pair: usize,
+    instants: &[Instant],
+    units: &UnitLabels,
+) -> Option<String> {
     let at = |instant: &Instant| -> Vec<&InterfaceRow> {
         let step = records[instant.index].step;
         let mut found: Vec<_> = rows.iter().filter(|row| row.pair == pair && row.step == step).collect();
@@ -37,14 +48,15 @@ fn svg(records: &[Record], rows: &[InterfaceRow], pair: usize, instants: &[Insta
         panel(units.axis("traction *q*", Quantity::Stress), 66.0, |row| row.traction, false),
     ];
     let x_label = units.axis("arc length along the interface", Quantity::Length);
-    Some(Column { x_label, x_range, charts, keys: keys(instants), keys_per_row: 3, marks: Vec::new() }.draw())
+    Some(Column { x_label, x_range, charts, keys: keys(instants), labels_repeat_keys: true, marks: Vec::new() }.draw())
 }
 
 fn keys(instants: &[Instant]) -> Vec<Key> {
     let key = |(k, instant): (usize, &Instant)| Key {
-        label: format!("{}  {}", instant.letter, instant.label),
+        label: format!("({}) {}", instant.letter, instant.label),
         colour: palette::time(k, instants.len()),
         dash: "",
+        width: 1.6,
     };
     instants.iter().enumerate().map(key).collect()
 }

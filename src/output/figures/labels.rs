@@ -1,7 +1,8 @@
 //! Places a direct label beside each curve where it covers no data and cannot be taken for another curve's.
 
 use super::canvas::Rect;
-use super::chart::{Chart, Frame, Series};
+use super::chart::{Chart, Series};
+use super::frame::Frame;
 use super::text;
 
 /// Free space around a label in points.
@@ -12,14 +13,14 @@ const SPACING: f64 = 1.5;
 const AMPLE: f64 = 14.0;
 
 /// Position (middle of the base line) of each curve's label; `None` where a wanted label finds no place.
-/// Curves without label get an arbitrary position.
+/// Curves without label, or with nothing to see in the frame, need none and get an arbitrary position.
 pub fn place(chart: &Chart, frame: &Frame) -> Vec<Option<[f64; 2]>> {
     let curves: Vec<Vec<[f64; 2]>> = chart.series.iter().map(|series| trace(series, frame)).collect();
     let mut taken: Vec<Rect> = Vec::new();
     let mut found = Vec::with_capacity(curves.len());
     for (own, series) in chart.series.iter().enumerate() {
-        if series.label.is_empty() {
-            found.push(Some([0.0; 2]));
+        if series.label.is_empty() || curves[own].is_empty() {
+            found.push(Some([f64::NAN; 2]));
             continue;
         }
         let best = candidates(&curves[own], &series.label)
@@ -58,8 +59,22 @@ fn candidates(curve: &[[f64; 2]], label: &str) -> impl Iterator<Item = Rect> {
     let stride = (curve.len() / 120).max(1);
     let around = move |[x, y]: [f64; 2]| {
         let (aside, above) = (half + CLEAR + 1.5, rise + CLEAR + 1.0);
-        [[0.0, -above], [0.0, above], [-aside, 0.0], [aside, 0.0], [-aside, -above], [aside, -above], [-aside, above], [aside, above]]
-            .map(|[dx, dy]| Rect { left: x + dx - half, top: y + dy - rise, right: x + dx + half, bottom: y + dy + rise })
+        [
+            [0.0, -above],
+            [0.0, above],
+            [-aside, 0.0],
+            [aside, 0.0],
+            [-aside, -above],
+            [aside, -above],
+            [-aside, above],
+            [aside, above],
+        ]
+        .map(|[dx, dy]| Rect {
+            left: x + dx - half,
+            top: y + dy - rise,
+            right: x + dx + half,
+            bottom: y + dy + rise,
+        })
     };
     curve.iter().step_by(stride).flat_map(move |point| around(*point))
 }
@@ -67,11 +82,16 @@ fn candidates(curve: &[[f64; 2]], label: &str) -> impl Iterator<Item = Rect> {
 /// Clearance from everything else, `None` where the label would cover something or leave the frame.
 fn score(label: Rect, own: usize, curves: &[Vec<[f64; 2]>], taken: &[Rect], frame: &Frame) -> Option<f64> {
     let inside = frame.rect.shrunk(1.0);
-    if label.left < inside.left || label.right > inside.right || label.top < inside.top || label.bottom > inside.bottom {
+    if label.left < inside.left || label.right > inside.right || label.top < inside.top || label.bottom > inside.bottom
+    {
         return None;
     }
-    let to_curve = |curve: &Vec<[f64; 2]>| curve.iter().fold(f64::INFINITY, |near, point| near.min(outside(*point, label)));
-    let mut clearance = AMPLE;
+    let to_curve =
+        |curve: &Vec<[f64; 2]>| curve.iter().fold(f64::INFINITY, |near, point| near.min(outside(*point, label)));
+    // The frame counts half: near it there is room, but a label should not lean on an axis.
+    let edges =
+        [label.left - inside.left, inside.right - label.right, label.top - inside.top, inside.bottom - label.bottom];
+    let mut clearance = edges.into_iter().fold(AMPLE, |near, edge| near.min(2.0 * edge));
     for (k, curve) in curves.iter().enumerate() {
         let distance = to_curve(curve);
         if distance < CLEAR || (k != own && distance < 2.0 * CLEAR) {
@@ -86,8 +106,10 @@ fn score(label: Rect, own: usize, curves: &[Vec<[f64; 2]>], taken: &[Rect], fram
         }
         clearance = clearance.min(distance);
     }
-    // Among equally free places the one nearest to the own curve.
-    Some(clearance - 0.3 * to_curve(&curves[own]))
+    let zero = frame.place([0.0, 0.0])[1];
+    let struck = if (label.top..label.bottom).contains(&zero) { 4.0 } else { 0.0 };
+    // Among equally free places the one nearest to the own curve and not struck through by the zero line.
+    Some(clearance - struck - 0.3 * to_curve(&curves[own]))
 }
 
 /// Distance of a point from a box, 0 inside.
@@ -98,6 +120,7 @@ fn outside([x, y]: [f64; 2], r: Rect) -> f64 {
 
 /// Distance between two boxes, 0 where they overlap.
 fn apart(a: Rect, b: Rect) -> f64 {
-    let (dx, dy) = ((a.left - b.right).max(b.left - a.right).max(0.0), (a.top - b.bottom).max(b.top - a.bottom).max(0.0));
+    let (dx, dy) =
+        ((a.left - b.right).max(b.left - a.right).max(0.0), (a.top - b.bottom).max(b.top - a.bottom).max(0.0));
     dx.hypot(dy)
 }

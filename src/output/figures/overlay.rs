@@ -5,16 +5,32 @@ use super::canvas::{Canvas, Stroke, path};
 use super::palette::{BLUE, INK};
 use crate::model::{InterfaceRow, Record};
 
+/// Least distance of two pressure ordinates in points.
+const ORDINATE_GAP: f64 = 1.6;
+
 /// The pressure band: from each point in contact along the normal into the driven body, `scale` points per stress.
 pub fn pressure_band(canvas: &mut Canvas, view: &View, rows: &[InterfaceRow], scale: f64) {
     for run in contact_runs(rows) {
         let base: Vec<[f64; 2]> = run.iter().map(|row| view.place([row.x, row.y])).collect();
         let tips: Vec<[f64; 2]> = run.iter().zip(&base).map(|(row, at)| tip(row, *at, scale)).collect();
-        let band: Vec<_> = base.iter().chain(tips.iter().rev()).copied().collect();
-        canvas.fill_path(&path(&band, true), BLUE, 0.45, false);
-        canvas.polyline(&tips, Stroke::solid(BLUE, 0.7));
-        canvas.polyline(&base, Stroke::solid(BLUE, 0.9));
+        hatched(canvas, &base, &tips);
     }
+}
+
+/// A pressure diagram over `base`: white veil, ordinates at least [`ORDINATE_GAP`] apart, outline.
+pub fn hatched(canvas: &mut Canvas, base: &[[f64; 2]], tips: &[[f64; 2]]) {
+    let band: Vec<_> = base.iter().chain(tips.iter().rev()).copied().collect();
+    canvas.fill_path(&path(&band, true), "#ffffff", 0.6, false);
+    let mut last: Option<[f64; 2]> = None;
+    let mut ordinates = String::new();
+    for (foot, tip) in base.iter().zip(tips) {
+        if last.is_none_or(|last| (foot[0] - last[0]).hypot(foot[1] - last[1]) >= ORDINATE_GAP) {
+            ordinates.push_str(&path(&[*foot, *tip], false));
+            last = Some(*foot);
+        }
+    }
+    canvas.stroke_path(&ordinates, Stroke::solid(BLUE, 0.35));
+    canvas.stroke_path(&path(&band, true), Stroke::solid(BLUE, 0.8));
 }
 
 fn tip(row: &InterfaceRow, [x, y]: [f64; 2], scale: f64) -> [f64; 2] {
@@ -37,7 +53,8 @@ pub fn resultant(canvas: &mut Canvas, view: &View, record: &Record, rows: &[Inte
     if total <= 0.0 {
         return;
     }
-    let mean = |value: &dyn Fn(&InterfaceRow) -> f64| rows.iter().map(|row| load(row) * value(row)).sum::<f64>() / total;
+    let mean =
+        |value: &dyn Fn(&InterfaceRow) -> f64| rows.iter().map(|row| load(row) * value(row)).sum::<f64>() / total;
     let from = view.place([mean(&|row| row.x), mean(&|row| row.y)]);
     // Support is positive along the mean normal, whether the driven body lies above or below; resistance is against +x.
     let up = mean(&|row| row.normal[1]).signum();
@@ -47,7 +64,8 @@ pub fn resultant(canvas: &mut Canvas, view: &View, record: &Record, rows: &[Inte
 /// An arrow with white halo, from a point along a vector on the sheet.
 pub fn arrow(canvas: &mut Canvas, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) {
     let length = dx.hypot(dy);
-    if length < 0.5 {
+    // Shorter than its own head it would be a dot of no direction.
+    if length < 3.0 {
         return;
     }
     let (ex, ey) = (dx / length, dy / length);

@@ -4,7 +4,7 @@ use crate::geometry::{Curve, Patch, Point};
 use crate::output::vtu::{BodyField, StressField};
 
 /// Most stress cells of one body; more are not seen at the printed size.
-const MOST_CELLS: usize = 6000;
+const MOST_CELLS: usize = 10_000;
 /// Points per element edge.
 const EDGE_POINTS: usize = 4;
 

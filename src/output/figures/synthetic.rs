@@ -28,11 +28,11 @@ pub fn pass(steps: usize, mu: f64) -> Vec<Record> {
 }
 
 fn shape(t: f64) -> f64 {
-    (1.0 - ((t - 0.5) / 0.36).powi(2)).max(0.0)
+    (1.0 - ((t - 0.5) / 0.21).powi(2)).max(0.0)
 }
 
 fn angle(t: f64) -> f64 {
-    if shape(t) > 0.0 { 0.62 * (-(t - 0.5) / 0.36 * 1.2).tanh() } else { 0.0 }
+    if shape(t) > 0.0 { 0.62 * (-(t - 0.5) / 0.21 * 1.2).tanh() } else { 0.0 }
 }
 
 fn force(t: f64, mu: f64) -> [f64; 2] {
@@ -68,8 +68,8 @@ fn row(step: usize, time: f64, force: [f64; 2], work: f64) -> Record {
 
 /// Two bumps, one pointing up at `x = 0`, one down at the driven position: heights of both surfaces over `x`.
 pub fn surfaces(x: f64, drive: f64) -> [f64; 2] {
-    let bump = |x: f64| if x.abs() < 0.8 { 0.2 * (1.0 + (x * std::f64::consts::PI / 0.8).cos()) } else { 0.0 };
-    [bump(x), 0.6 - bump(x - drive + 1.9)]
+    let bump = |x: f64| if x.abs() < 0.95 { 0.2 * (1.0 + (x * std::f64::consts::PI / 0.95).cos()) } else { 0.0 };
+    [bump(x), 0.5 - bump(x - drive + 1.9)]
 }
 
 /// Sites on the lower edge of the driven body for every row of a history; pressure grows with the overlap.
@@ -83,7 +83,7 @@ fn site(record: &Record, index: usize, mu: f64) -> InterfaceRow {
     let middle = |x: f64| surfaces(x, record.drive[0]).iter().sum::<f64>() / 2.0;
     let [lower, upper] = surfaces(x, record.drive[0]);
     let angle = ((middle(x + 1e-4) - middle(x - 1e-4)) / 2e-4).atan();
-    let pressure = 0.9 * (lower - upper).max(0.0).powf(0.7);
+    let pressure = 0.6 * (lower - upper).max(0.0).powf(0.7);
     let contact = pressure > 0.0;
     InterfaceRow {
         step: record.step,

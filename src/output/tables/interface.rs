@@ -115,6 +115,7 @@ fn status(text: &str, path: &Path) -> Result<ContactStatus, OutputError> {
 
 fn variables(row: &Row) -> Result<Vec<f64>, OutputError> {
     let cells = row.cells.iter().skip(INTERFACE_COLUMNS.len()).filter(|cell| !cell.is_empty());
-    let parse = |cell: &str| cell.parse().map_err(|_| OutputError::content(row.path, format!("cannot read \"{cell}\"")));
+    let parse =
+        |cell: &str| cell.parse().map_err(|_| OutputError::content(row.path, format!("cannot read \"{cell}\"")));
     cells.map(parse).collect()
 }

@@ -44,40 +44,25 @@ impl Table {
     fn resume(path: &Path, header: &[String], last_step: usize) -> Result<Self, OutputError> {
         let text = fs::read_to_string(path).map_err(OutputError::io("read", path))?;
         write_atomic(path, kept_lines(&text, path, header, last_step)?.as_bytes())?;
-        let file = OpenOptions::new()
-            .append(true)
-            .open(path)
-            .map_err(OutputError::io("append to", path))?;
+        let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io("append to", path))?;
         Ok(Self::over(file, path))
     }
 
     fn over(file: File, path: &Path) -> Self {
-        Self {
-            writer: csv::WriterBuilder::new().from_writer(file),
-            path: path.to_path_buf(),
-        }
+        Self { writer: csv::WriterBuilder::new().from_writer(file), path: path.to_path_buf() }
     }
 
     /// Writes whole rows and flushes them in one go.
     fn rows(&mut self, rows: impl Iterator<Item = Vec<String>>) -> Result<(), OutputError> {
         for row in rows {
-            self.writer
-                .write_record(&row)
-                .map_err(|error| OutputError::io("append to", &self.path)(error.into()))?;
+            self.writer.write_record(&row).map_err(|error| OutputError::io("append to", &self.path)(error.into()))?;
         }
-        self.writer
-            .flush()
-            .map_err(OutputError::io("append to", &self.path))
+        self.writer.flush().map_err(OutputError::io("append to", &self.path))
     }
 }
 
 /// The header and the complete rows up to and including `last_step` (first column of every table).
-fn kept_lines(
-    text: &str,
-    path: &Path,
-    header: &[String],
-    last_step: usize,
-) -> Result<String, OutputError> {
+fn kept_lines(text: &str, path: &Path, header: &[String], last_step: usize) -> Result<String, OutputError> {
     let expected = header.join(",");
     let mut kept = String::new();
     for (index, line) in text.split_inclusive('\n').enumerate() {
@@ -133,5 +118,88 @@ impl<'a> Row<'a> {
 
     fn pair(&mut self) -> Result<[f64; 2], OutputError> {
         Ok([self.take()?, self.take()?])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::RunFolder;
+    use crate::output::figures::synthetic;
+
+    fn folder(name: &str) -> RunFolder {
+        let root = std::env::temp_dir().join(format!("asperity-tables-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&root);
+        RunFolder::create(&root).unwrap()
+    }
+
+    #[test]
+    fn tables_read_back_bit_for_bit() {
+        let folder = folder("round-trip");
+        let mut records = synthetic::pass(5, 0.3);
+        records[1].strain_energy = 1.0 / 3.0 * 1e-200;
+        let mut rows = synthetic::interface(&records, 0.3);
+        rows.iter_mut().for_each(|row| row.variables = vec![row.x / 3.0]);
+        let (mut history, mut interface) = folder.tables(&["z".into()], None).unwrap();
+        for record in &records {
+            history.append(record).unwrap();
+        }
+        interface.append(&rows).unwrap();
+        let back = read_history(&folder.history()).unwrap();
+        assert_eq!(format!("{back:?}"), format!("{records:?}"));
+        let back = read_interface(&folder.interface()).unwrap();
+        assert_eq!(format!("{back:?}"), format!("{rows:?}"));
+    }
+
+    #[test]
+    fn rows_are_on_disk_before_the_writer_is_gone() {
+        let folder = folder("kill");
+        let (mut history, _interface) = folder.tables(&[], None).unwrap();
+        history.append(&synthetic::pass(5, 0.3)[0]).unwrap();
+        let text = fs::read_to_string(folder.history()).unwrap();
+        assert_eq!(text.lines().count(), 2);
+        assert!(
+            text.starts_with("step,time,drive_x,drive_y,fx,fy,mu_global,contact_angle,contact_length,pressure_max,")
+        );
+        assert!(text.contains(",nan,"), "mu_global without support: {text}");
+    }
+
+    #[test]
+    fn resume_drops_later_and_half_written_rows() {
+        let folder = folder("resume");
+        let records = synthetic::pass(6, 0.3);
+        let (mut history, _interface) = folder.tables(&[], None).unwrap();
+        records[..4].iter().for_each(|record| history.append(record).unwrap());
+        let whole = fs::read_to_string(folder.history()).unwrap();
+        fs::write(folder.history(), &whole[..whole.len() - 9]).unwrap();
+        let (mut history, _interface) = folder.tables(&[], Some(2)).unwrap();
+        history.append(&records[2]).unwrap();
+        let steps: Vec<_> = read_history(&folder.history()).unwrap().iter().map(|record| record.step).collect();
+        assert_eq!(steps, [1, 2, 3]);
+    }
+
+    #[test]
+    fn errors_name_file_line_and_column() {
+        let folder = folder("errors");
+        let (mut history, _interface) = folder.tables(&[], None).unwrap();
+        history.append(&synthetic::pass(5, 0.3)[0]).unwrap();
+        let text = fs::read_to_string(folder.history()).unwrap().replace(",true,0.1,", ",maybe,0.1,");
+        fs::write(folder.history(), text).unwrap();
+        let message = read_history(&folder.history()).unwrap_err().to_string();
+        assert!(message.contains("history.csv: line 2, column converged") && message.contains("maybe"), "{message}");
+        let message = RunFolder::create(Path::new("/dev/null/run")).unwrap_err().to_string();
+        assert!(message.contains("/dev/null/run"), "{message}");
+    }
+
+    #[test]
+    fn numbers_are_short_and_exact() {
+        for (value, text) in
+            [(0.1, "0.1"), (-0.0, "-0"), (1e-9, "1e-9"), (3.0, "3"), (f64::NAN, "nan"), (1e300, "1e300")]
+        {
+            assert_eq!(number(value), text);
+        }
+        for value in [std::f64::consts::PI * 1e-7, 2.0_f64.sqrt() * 1e13, f64::MIN_POSITIVE] {
+            assert_eq!(number(value).parse::<f64>().unwrap(), value);
+        }
     }
 }

@@ -86,13 +86,9 @@ pub struct Extraction {
 /// Bernstein form of all functions of `basis` alive on `span` (polynomial functions, before any division by weights).
 pub fn extract(basis: &dyn Basis, span: usize, fit: &Bernstein) -> Extraction {
     let [start, end] = [basis.breaks()[span], basis.breaks()[span + 1]];
-    let shapes: Vec<_> =
-        fit.sites().iter().map(|t| basis.evaluate(span, (1.0 - t) * start + t * end)).collect();
+    let shapes: Vec<_> = fit.sites().iter().map(|t| basis.evaluate(span, (1.0 - t) * start + t * end)).collect();
     let function = |i: usize| shapes.iter().map(|shape| shape.d[0][i]).collect::<Vec<_>>();
-    Extraction {
-        first: shapes[0].first,
-        coefficients: (0..shapes[0].count).map(|i| fit.fit(&function(i))).collect(),
-    }
+    Extraction { first: shapes[0].first, coefficients: (0..shapes[0].count).map(|i| fit.fit(&function(i))).collect() }
 }
 
 /// Extraction of every span of a basis.

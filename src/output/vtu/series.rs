@@ -59,7 +59,8 @@ impl FieldSeries {
     }
 
     fn write_collection(&self) -> Result<(), OutputError> {
-        let mut xml = String::from("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
+        let mut xml =
+            String::from("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
         for entry in &self.entries {
             let (time, file) = (&entry.time, entry.file());
             xml.push_str(&format!("<DataSet timestep=\"{time}\" part=\"0\" file=\"{file}\"/>\n"));

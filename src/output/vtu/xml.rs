@@ -21,7 +21,9 @@ fn document(grid: &Grid, time: f64, bodies: &[BodyField]) -> String {
     // Body names are free text and "--" may not occur in a comment.
     let names = bodies.iter().map(|body| body.name().replace("--", "- -")).collect::<Vec<_>>().join(", ");
     let _ = writeln!(xml, "<!-- body 0, 1, ...: {names} -->");
-    xml.push_str("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n");
+    xml.push_str(
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n",
+    );
     xml.push_str("<UnstructuredGrid>\n<FieldData>\n");
     array(&mut xml, "Float64", "TimeValue", "NumberOfTuples=\"1\"", &floats([time]));
     let (points, cells) = (grid.points.len(), grid.types.len());
@@ -67,7 +69,10 @@ fn array(xml: &mut String, kind: &str, name: &str, attributes: &str, bytes: &[u8
     let mut block = (bytes.len() as u64).to_le_bytes().to_vec();
     block.extend_from_slice(bytes);
     let text = encode(&block);
-    let _ = writeln!(xml, "<DataArray type=\"{kind}\" Name=\"{name}\" {attributes} format=\"binary\">\n{text}\n</DataArray>");
+    let _ = writeln!(
+        xml,
+        "<DataArray type=\"{kind}\" Name=\"{name}\" {attributes} format=\"binary\">\n{text}\n</DataArray>"
+    );
 }
 
 fn floats(values: impl IntoIterator<Item = f64>) -> Vec<u8> {

@@ -1,0 +1,122 @@
+//! `asperity check`: what is modelled, what is left out, why, and how large it is.
+
+use std::path::Path;
+
+use asperity::contact::ContactDiscretization;
+use asperity::model::{Body, Control, Model, Motion, Pair};
+use asperity::scene::{Scene, build};
+
+use super::SceneArguments;
+use super::outcome::{Exit, Failure, say};
+
+/// Reads and builds a scene, with the lines of all that is wrong.
+pub fn load(arguments: &SceneArguments) -> Result<(Scene, Model), Failure> {
+    let (scene, source) = Scene::load(&arguments.scene, &arguments.sets)?;
+    let base_dir = arguments.scene.parent().unwrap_or(Path::new("."));
+    let model = build(&scene, base_dir).map_err(|error| source.locate(error))?;
+    Ok((scene, model))
+}
+
+/// Validates a scene and prints the model chosen.
+pub fn check(arguments: &SceneArguments) -> Result<Exit, Failure> {
+    let (scene, model) = load(arguments)?;
+    say(&describe(&scene, &model))?;
+    Ok(Exit::Done)
+}
+
+fn describe(scene: &Scene, model: &Model) -> String {
+    let mut modelled: Vec<String> = model.bodies.iter().map(|body| body_line(scene, body)).collect();
+    modelled.extend(model.pairs.iter().enumerate().map(|(k, pair)| pair_line(scene, model, k, pair)));
+    modelled.extend(model.motions.iter().map(|motion| motion_line(model, motion)));
+    let section = |title: &str, lines: &[String]| -> String {
+        let lines: String = lines.iter().map(|line| format!("  - {line}\n")).collect();
+        format!("{title}\n{lines}")
+    };
+    format!(
+        "{}\n{}{}{}",
+        if scene.title.is_empty() { "(no title)" } else { &scene.title },
+        section("modelled:", &modelled),
+        section("left out, because:", &left_out(scene, model)),
+        section("sizes:", &sizes(scene, model)),
+    )
+}
+
+fn body_line(scene: &Scene, body: &Body) -> String {
+    let elements = scene.body.get(&body.name).map_or([0, 0], |spec| spec.elements);
+    match (body.patch(), body.material()) {
+        (Some(patch), Some(material)) => format!(
+            "body {}: {}, {} of degree {}, {} x {} elements, {} control points",
+            body.name,
+            material.name(),
+            patch.basis[0].name(),
+            patch.basis[0].degree(),
+            patch.elements()[0],
+            patch.elements()[1],
+            body.points.len()
+        ),
+        _ => format!("body {}: rigid, a curve of {} elements without unknowns", body.name, elements[0].max(elements[1])),
+    }
+}
+
+fn pair_line(scene: &Scene, model: &Model, k: usize, pair: &Pair) -> String {
+    let numerics = pair.contact.numerics();
+    let law = scene.contact.get(k).and_then(|contact| contact.law.get("type")?.as_str()).unwrap_or("?");
+    let r = numerics.r * pair.contact.augmentation();
+    format!(
+        "contact {k}: {} on {}, law {law}; {:?} sites, {:?} projection, {:?}-wise integration with {} points, r = {r:.3e}",
+        model.bodies[pair.nonmortar.body].name,
+        model.bodies[pair.mortar.body].name,
+        numerics.sites,
+        numerics.projection,
+        numerics.integration,
+        numerics.points
+    )
+    .to_lowercase()
+}
+
+fn motion_line(model: &Model, motion: &Motion) -> String {
+    let kind = if motion.drive { "drive" } else { "support" };
+    let (control, table) = match &motion.control {
+        Control::Displacement(table) => ("displacement", table),
+        Control::Force(table) => ("force", table),
+    };
+    let course = if table.is_constant() {
+        format!("held at {}", table.at(0.0))
+    } else {
+        format!("over {} times", table.time.len())
+    };
+    let component = ["x", "y"][motion.component];
+    format!("{kind} of body {}: {control} {component} {course}", model.bodies[motion.body].name)
+}
+
+fn left_out(scene: &Scene, model: &Model) -> Vec<String> {
+    let mut lines = vec!["inertia: the analysis is quasi-static".to_string()];
+    for (k, pair) in model.pairs.iter().enumerate() {
+        if !pair.contact.rubs() {
+            lines.push(format!("tangential unknowns of contact {k}: its law is frictionless at all times"));
+        } else if pair.contact.variable_names().is_empty() {
+            lines.push(format!("state variables of contact {k}: its law has no memory"));
+        }
+    }
+    for body in model.bodies.iter().filter(|body| body.is_rigid()) {
+        lines.push(format!("deformation of body {}: declared rigid", body.name));
+    }
+    if model.pairs.is_empty() {
+        lines.push("contact: the scene has no [[contact]]".to_string());
+    }
+    for (what, every) in [("fields", scene.output.fields), ("interface", scene.output.interface)] {
+        if every == 0 {
+            lines.push(format!("output of {what}: `output.{what} = 0`"));
+        }
+    }
+    lines
+}
+
+fn sizes(scene: &Scene, model: &Model) -> Vec<String> {
+    let multipliers = model.unknowns() - model.equations.count;
+    vec![
+        format!("{} unknowns: {} displacements, {multipliers} multipliers", model.unknowns(), model.equations.count),
+        format!("{} nominal steps of {:e}", scene.time.steps, scene.time.end / scene.time.steps as f64),
+        format!("stress scale E = {:e}, element size h = {:.3e}", model.modulus, model.element_size),
+    ]
+}

@@ -1,0 +1,108 @@
+//! `asperity run`.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use asperity::model::Record;
+use asperity::output::RunFolder;
+use asperity::scene::{self, Scene};
+use asperity::solve::Status;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::RunArguments;
+use super::check::load;
+use super::outcome::{Exit, Failure, say};
+
+/// Computes a scene into a folder.
+pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
+    let (scene, model) = load(&arguments.scene)?;
+    let out = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.scene.scene));
+    let folder = RunFolder::create(&out)
+        .map_err(|error| Failure::input(format!("{error}\n  = argument: --out {}", out.display())))?;
+    let interrupt = on_interrupt()?;
+    let mut progress = Progress::new(&scene, arguments.quiet);
+    let outcome = scene::run(&scene, &model, &folder, &interrupt, |record| progress.step(record));
+    progress.end();
+    let outcome = outcome.map_err(Failure::internal)?;
+    if !arguments.quiet {
+        let state = scene::status_name(&outcome.status);
+        let (steps, iterations, cuts) = (outcome.steps, outcome.iterations, outcome.cuts);
+        say(&format!("{state}: {steps} steps, {iterations} iterations, {cuts} cuts; results in {}\n", out.display()))?;
+    }
+    conclude(&outcome.status, &out)
+}
+
+fn conclude(status: &Status, out: &Path) -> Result<Exit, Failure> {
+    match status {
+        Status::Done => Ok(Exit::Done),
+        Status::Interrupted { .. } => Ok(Exit::Interrupted),
+        Status::NotConverged { time, reason } => Err(Failure::not_converged(format!(
+            "no convergence after time {time}: {reason}\n  = help: all steps before are kept in {}",
+            out.display()
+        ))),
+    }
+}
+
+fn default_folder(scene: &Path) -> PathBuf {
+    Path::new("out").join(scene.file_stem().unwrap_or(scene.as_os_str()))
+}
+
+/// The first Ctrl-C asks the march to stop, the second stops the program at once.
+fn on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let raised = flag.clone();
+    let handler = move || {
+        if raised.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(Exit::Interrupted as u8));
+        }
+    };
+    ctrlc::set_handler(handler).map_err(|error| Failure::internal(format!("Ctrl-C handler: {error}")))?;
+    Ok(flag)
+}
+
+/// A bar on a terminal, one line a step elsewhere, nothing when quiet. On stderr: stdout stays for results.
+enum Progress {
+    Bar(ProgressBar),
+    Lines,
+    Silent,
+}
+
+impl Progress {
+    fn new(scene: &Scene, quiet: bool) -> Self {
+        match (quiet, std::io::stderr().is_terminal()) {
+            (true, _) => Self::Silent,
+            (false, false) => Self::Lines,
+            (false, true) => {
+                let bar = ProgressBar::with_draw_target(Some(scene.time.steps as u64), ProgressDrawTarget::stderr());
+                let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed} (left {eta})  {msg}");
+                Self::Bar(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
+            }
+        }
+    }
+
+    fn step(&mut self, record: &Record) {
+        let [fx, fy] = record.force;
+        let (iterations, cuts) = (record.newton_iterations, record.cuts);
+        let message = format!("Fx {fx:.4e}  Fy {fy:.4e}  Fx/Fy {:.4}  {iterations} it {cuts} cuts", record.mu_global);
+        match self {
+            Self::Bar(bar) => {
+                bar.set_position(record.step as u64);
+                bar.set_message(message);
+            }
+            Self::Lines => {
+                // a closed stderr must not stop a computation
+                let line = format!("step {}  t {:.6}  {message}", record.step, record.time);
+                let _ = writeln!(std::io::stderr(), "{line}");
+            }
+            Self::Silent => {}
+        }
+    }
+
+    fn end(&self) {
+        if let Self::Bar(bar) = self {
+            bar.abandon();
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The bodies of a model at one state, as the output room draws them.
+
+use nalgebra::Matrix2;
+
+use crate::bulk::Material;
+use crate::geometry::{Patch, Point};
+use crate::model::{Body, BodyKind, Model};
+use crate::output::vtu::{BodyField, CauchySample};
+
+/// Every deformable body, and every contact edge of the rigid ones; `u` is the displacement of all control points.
+pub(super) fn bodies<'a>(model: &'a Model, u: &'a [Point]) -> Vec<BodyField<'a>> {
+    model.bodies.iter().flat_map(|body| fields(body, &u[body.nodes()])).collect()
+}
+
+fn fields<'a>(body: &'a Body, u: &'a [Point]) -> Vec<BodyField<'a>> {
+    match &body.kind {
+        BodyKind::Deformable { patch, material, .. } => {
+            let deformed = moved(patch, u);
+            vec![BodyField::Deformable {
+                name: &body.name,
+                patch,
+                displacement: u,
+                stress: Box::new(move |element, uv| sample(material.as_ref(), patch, &deformed, element, uv)),
+            }]
+        }
+        BodyKind::Rigid { curves } => {
+            let mut first = 0;
+            let field = curves.iter().map(|(_, curve)| {
+                let nodes = first..first + curve.points.len();
+                first = nodes.end;
+                BodyField::Rigid { name: &body.name, curve, displacement: &u[nodes] }
+            });
+            field.collect()
+        }
+    }
+}
+
+fn moved(patch: &Patch, u: &[Point]) -> Patch {
+    let points = patch.points.iter().zip(u).map(|(x, u)| x + u).collect();
+    Patch { points, ..patch.clone() }
+}
+
+/// `F = (dx/dxi) (dX/dxi)^-1`; undefined where the map degenerates (a corner of a disk) or the body is inverted.
+fn sample(material: &dyn Material, patch: &Patch, deformed: &Patch, element: [usize; 2], uv: [f64; 2]) -> CauchySample {
+    let columns = |patch: &Patch| Matrix2::from_columns(&patch.map(element, uv).1);
+    let f = columns(patch).try_inverse().map(|inverse| columns(deformed) * inverse);
+    let answer = f.and_then(|f| Some((f, material.cauchy(&f)?)));
+    match answer {
+        Some((f, s)) => CauchySample {
+            stress: [s[(0, 0)], s[(1, 1)], material.out_of_plane(&f), s[(0, 1)]],
+            det_f: f.determinant(),
+        },
+        None => CauchySample { stress: [f64::NAN; 4], det_f: f64::NAN },
+    }
+}

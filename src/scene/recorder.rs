@@ -1,0 +1,171 @@
+//! What a run leaves on disk, step by step: tables at once, fields and figures as the scene asks.
+
+use crate::contact::ContactDiscretization;
+use crate::geometry::Point;
+use crate::model::{InterfaceRow, Model, Record, State, interface_rows};
+use crate::output::figures::{Data, choose};
+use crate::output::tables::{HistoryWriter, InterfaceWriter};
+use crate::output::vtu::FieldSeries;
+use crate::output::{OutputError, RunFolder, UnitLabels};
+use crate::solve::StepReport;
+
+use super::fields;
+use super::spec::{OutputSpec, Scene, Units};
+
+/// Displacements are kept for the figure of the bodies up to this number of values; beyond it the figure is left out.
+const MAX_KEPT: usize = 1 << 26;
+
+/// Writes the results of a run while it goes on.
+pub(super) struct Recorder<'a> {
+    model: &'a Model,
+    output: &'a OutputSpec,
+    folder: &'a RunFolder,
+    history: HistoryWriter,
+    interface: InterfaceWriter,
+    fields: Option<FieldSeries>,
+    columns: Columns,
+    /// Everything the figures need.
+    records: Vec<Record>,
+    rows: Vec<InterfaceRow>,
+    displacements: Vec<Vec<Point>>,
+}
+
+impl<'a> Recorder<'a> {
+    /// Opens all files; an earlier run in the same folder is replaced.
+    pub fn new(scene: &'a Scene, model: &'a Model, folder: &'a RunFolder) -> Result<Self, OutputError> {
+        let columns = Columns::new(model);
+        let (history, interface) = folder.tables(&columns.names(), None)?;
+        folder.write_readme(&scene.title, &labels(&scene.units), &columns.0)?;
+        let fields = match scene.output.fields {
+            0 => None,
+            _ => Some(folder.fields(None)?),
+        };
+        Ok(Self {
+            model,
+            output: &scene.output,
+            folder,
+            history,
+            interface,
+            fields,
+            columns,
+            records: vec![],
+            rows: vec![],
+            displacements: vec![],
+        })
+    }
+
+    /// Writes the fields of the undeformed state.
+    pub fn start(&mut self, state: &State) -> Result<(), OutputError> {
+        self.write_fields(0, state)
+    }
+
+    /// Takes one nominal step.
+    pub fn step(&mut self, report: &StepReport) -> Result<(), OutputError> {
+        let step = report.record.step;
+        self.history.append(&report.record)?;
+        if due(step, self.output.interface) {
+            let mut rows = interface_rows(self.model, report.evaluation, step);
+            rows.iter_mut().for_each(|row| self.columns.align(row));
+            self.interface.append(&rows)?;
+            if self.output.figures {
+                self.rows.extend(rows);
+            }
+        }
+        if due(step, self.output.fields) {
+            self.write_fields(step, report.state)?;
+        }
+        if self.output.figures {
+            self.records.push(report.record.clone());
+            if 2 * (self.records.len() + 1) * self.model.nodes() <= MAX_KEPT {
+                self.displacements.push(report.state.u.clone());
+            }
+        }
+        Ok(())
+    }
+
+    fn write_fields(&mut self, step: usize, state: &State) -> Result<(), OutputError> {
+        if let Some(series) = &mut self.fields {
+            series.append(step, state.time, &fields::bodies(self.model, &state.u))?;
+        }
+        Ok(())
+    }
+
+    /// Draws the figures of all steps so far.
+    pub fn finish(&self, scene: &Scene) -> Result<(), OutputError> {
+        if !self.output.figures {
+            return Ok(());
+        }
+        let units = labels(&scene.units);
+        let data = Data {
+            records: &self.records,
+            interface: &self.rows,
+            local_friction: local_friction(scene),
+            units: &units,
+        };
+        let target = self.folder.figures()?;
+        data.write_charts(&target)?;
+        let instants = choose(&self.records);
+        let kept = instants.iter().filter_map(|instant| Some((instant, self.displacements.get(instant.index)?)));
+        let frames: Vec<_> =
+            kept.map(|(instant, u)| data.frame(instant, &fields::bodies(self.model, u))).collect();
+        if frames.len() == instants.len() {
+            data.write_bodies(&target, &frames)?;
+        }
+        Ok(())
+    }
+}
+
+fn due(step: usize, every: usize) -> bool {
+    every > 0 && step.is_multiple_of(every)
+}
+
+fn labels(units: &Units) -> UnitLabels {
+    UnitLabels { length: units.length.clone(), stress: units.stress.clone(), time: units.time.clone() }
+}
+
+/// The coefficient of Coulomb's law, where all contacts share one.
+fn local_friction(scene: &Scene) -> Option<f64> {
+    let of = |law: &toml::Table| {
+        let coulomb = law.get("type").and_then(toml::Value::as_str) == Some("coulomb");
+        law.get("friction").and_then(toml::Value::as_float).filter(|_| coulomb)
+    };
+    let first = of(&scene.contact.first()?.law)?;
+    scene.contact.iter().all(|contact| of(&contact.law) == Some(first)).then_some(first)
+}
+
+/// State variables of the laws as columns of `interface.csv`: name and unit.
+struct Columns(Vec<(String, String)>, Vec<usize>);
+
+impl Columns {
+    /// One set of columns where all laws have the same variables, else one set for each pair.
+    fn new(model: &Model) -> Self {
+        let of_pair: Vec<Vec<(String, String)>> = model
+            .pairs
+            .iter()
+            .map(|pair| {
+                let units = pair.contact.law().map(|law| law.variables()).unwrap_or_default();
+                let names = pair.contact.variable_names().into_iter();
+                names.zip(units).map(|(name, v)| (name, v.unit.to_string())).collect()
+            })
+            .collect();
+        if of_pair.windows(2).all(|pair| pair[0] == pair[1]) {
+            return Self(of_pair.first().cloned().unwrap_or_default(), vec![0; of_pair.len()]);
+        }
+        let (mut columns, mut first) = (vec![], vec![]);
+        for (k, variables) in of_pair.into_iter().enumerate() {
+            first.push(columns.len());
+            columns.extend(variables.into_iter().map(|(name, unit)| (format!("pair{k}.{name}"), unit)));
+        }
+        Self(columns, first)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.0.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    /// Moves the variables of a row to the columns of its pair.
+    fn align(&self, row: &mut InterfaceRow) {
+        let first = self.1.get(row.pair).copied().unwrap_or(0);
+        row.variables.splice(0..0, std::iter::repeat_n(f64::NAN, first));
+    }
+}
