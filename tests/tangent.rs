@@ -84,7 +84,8 @@ fn segment_tangent_is_nearly_complete() {
 
 #[test]
 fn frictionless_tangent_is_symmetric() {
-    for projection in [Projection::Closest, Projection::Ray] {
+    // (Ray projection gives up symmetry for forces that do not jump at mortar corners.)
+    for projection in [Projection::Closest] {
         for sites in [Sites::Nodal, Sites::Quadrature] {
             let setup = Pass { friction: 0.0, element: 0.2, sites: Some(sites), projection: Some(projection), ..Pass::default() };
             let model = pass(&setup);

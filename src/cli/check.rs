@@ -54,7 +54,9 @@ fn body_line(scene: &Scene, body: &Body) -> String {
             patch.elements()[1],
             body.points.len()
         ),
-        _ => format!("body {}: rigid, a curve of {} elements without unknowns", body.name, elements[0].max(elements[1])),
+        _ => {
+            format!("body {}: rigid, a curve of {} elements without unknowns", body.name, elements[0].max(elements[1]))
+        }
     }
 }
 

@@ -57,6 +57,7 @@ impl Row {
 /// Rows of a site, each multiplied by its weight.
 struct SiteRows {
     gap: Vec<(usize, f64)>,
+    virtual_gap: Vec<(usize, f64)>,
     virtual_slip: Vec<(usize, f64)>,
     slip: Vec<(usize, f64)>,
     stretch: Vec<(usize, f64)>,
@@ -130,7 +131,7 @@ impl Assembly<'_> {
         }
     }
 
-    /// `-p^ d2g + q^ d(virtual slip)` at every loaded point.
+    /// `-p^ d(virtual gap) + q^ d(virtual slip)` at every loaded point.
     fn add_geometric_tangent(&self, loads: &[[f64; 2]], out: &mut Triplets) {
         for ((point, state), &[p, q]) in self.points.iter().zip(self.states).zip(loads) {
             let Some(state) = state else { continue };
@@ -154,9 +155,10 @@ impl Assembly<'_> {
             }
             row.take()
         };
-        let gap = gather(&|at, _| at.frame.normal, false);
+        let gap = gather(&|at, _| at.frame.gap_row, false);
+        let virtual_gap = gather(&|at, _| at.frame.normal, false);
         if !self.rubs {
-            return SiteRows { gap, virtual_slip: vec![], slip: vec![], stretch: vec![] };
+            return SiteRows { gap, virtual_gap, virtual_slip: vec![], slip: vec![], stretch: vec![] };
         }
         let speed = |at: &PointState| at.z[2].hypot(at.z[3]);
         let stretch = |at: &PointState, point: &QuadraturePoint| {
@@ -168,6 +170,7 @@ impl Assembly<'_> {
         };
         SiteRows {
             gap,
+            virtual_gap,
             virtual_slip: gather(&|at, _| at.frame.tangential, false),
             slip: gather(&|at, _| at.frame.parameter.map(|v| v * speed(at)), true),
             stretch: if state.answer.dq_dstretch == 0.0 { vec![] } else { gather(&stretch, false) },
@@ -215,17 +218,15 @@ impl Assembly<'_> {
         add(&rows.gap, a.dq_dp * a.dp_dg);
         add(&rows.slip, a.dq_ds);
         add(&rows.stretch, a.dq_dstretch);
-        for &(i, g) in &rows.gap {
+        for &(i, g) in &rows.virtual_gap {
             rows.gap.iter().for_each(|&(j, v)| out.push((i, j, -g * a.dp_dg / w * v)));
         }
         for &(i, s) in &rows.virtual_slip {
             friction.iter().for_each(|&(j, v)| out.push((i, j, s / w * v)));
         }
         for &(k, m) in &state.site.reads {
-            for &(i, g) in &rows.gap {
-                out.push((i, offset + k, -g * a.dp_dp * m));
-                out.push((offset + k, i, m * a.dp_dg / state.r[0] * g));
-            }
+            rows.virtual_gap.iter().for_each(|&(i, g)| out.push((i, offset + k, -g * a.dp_dp * m)));
+            rows.gap.iter().for_each(|&(j, g)| out.push((offset + k, j, m * a.dp_dg / state.r[0] * g)));
             for &(i, s) in &rows.virtual_slip {
                 out.push((i, offset + k, s * a.dq_dp * a.dp_dp * m));
                 out.push((i, t + k, s * a.dq_dq * m));

@@ -91,9 +91,9 @@ pub struct SiteRecord {
     pub x: Point,
     /// Reference arc length along the nonmortar edge.
     pub arc: f64,
-    /// Outward normal of the mortar side at the partner point.
+    /// Unit vector along which the pressure acts on the nonmortar body.
     pub normal: Vec2,
-    /// Mortar tangent: slip and traction are positive along it.
+    /// Unit tangent: slip and traction are positive along it.
     pub tangent: Vec2,
     /// Pressure per current length (Cauchy).
     pub pressure: f64,

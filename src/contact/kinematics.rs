@@ -25,14 +25,15 @@
 //! Varying gives `dd + dg nu + g dnu = a dxi`, and with `tau = e/|e|`: `dnu = -tau (nu.de)/|e|`. With `c = -nu.n`:
 //!
 //! ```text
-//! dg           = (dd.n + g dnu.n) / c
-//! dxi          = (dd.t + dg nu.t + g dnu.t) / |a|
-//! virtual slip = (dd.t + g dnu.t) / c
+//! dg           = (dd.n + g dnu.n) / c           dxi = (dd.t + dg nu.t + g dnu.t) / |a|
+//! virtual gap  = -dd.nu                         virtual slip = +-(dd.tau + g dnu.tau), positive along t
 //! ```
 //!
-//! The virtual slip is not `|a| dxi` here: this choice makes normal and tangential force orthogonal and of the same
-//! scale (`n/c` and `t/c`), so `|q| = mu p` means a resultant at exactly the friction angle, and it vanishes under rigid
-//! rotation, so that linear and angular momentum balance exactly for any gap.
+//! The virtual gap is not `dg` here: forces follow the nonmortar normal, which does not jump where the point passes a
+//! corner of the mortar curve (`n` and `dg` do, and then no equilibrium may exist). The price is a tangent that is not
+//! symmetric without friction. Pressure acts along `nu` and friction along `tau`, so `|q| = mu p` is a resultant at exactly
+//! the friction angle. Both vanish under rigid rotation (`dd = -g dnu`), so that linear and angular momentum balance
+//! exactly for any gap.
 
 use num_dual::{DualNum, DualSVec64};
 
@@ -59,6 +60,8 @@ pub struct Frame<T = f64> {
     /// Gap, positive when open.
     pub gap: T,
     /// Coefficients of `dg`.
+    pub gap_row: Slots<T>,
+    /// Coefficients of the virtual gap, along which the pressure works; `dg` for the closest point.
     pub normal: Slots<T>,
     /// Coefficients of the virtual slip.
     pub tangential: Slots<T>,
@@ -98,6 +101,7 @@ impl Orientation {
         let xi = [scale(a, denominator), scale(n, gap * denominator)];
         Frame {
             gap,
+            gap_row: join([n, zero, zero, zero]),
             normal: join([n, zero, zero, zero]),
             tangential: join([scale(xi[0], length), scale(xi[1], length), zero, zero]),
             parameter: join([xi[0], xi[1], zero, zero]),
@@ -115,22 +119,23 @@ impl Orientation {
         let turn = scale(tau, -gap / stretch);
         let (along_n, along_t) = (dot(turn, n), dot(turn, t));
         let zero = [T::zero(); 2];
-        let normal = [scale(n, inverse), scale(nu, along_n * inverse)];
-        let tangential = [scale(t, inverse), scale(nu, along_t * inverse)];
+        let gap_row = [scale(n, inverse), scale(nu, along_n * inverse)];
         let lean = dot(nu, t);
         let xi = [
-            scale(add(t, scale(normal[0], lean)), length.recip()),
-            scale(add(scale(nu, along_t), scale(normal[1], lean)), length.recip()),
+            scale(add(t, scale(gap_row[0], lean)), length.recip()),
+            scale(add(scale(nu, along_t), scale(gap_row[1], lean)), length.recip()),
         ];
+        let sense = T::from(dot(t, tau).re().signum());
         Frame {
             gap,
-            normal: join([normal[0], zero, zero, normal[1]]),
-            tangential: join([tangential[0], zero, zero, tangential[1]]),
+            gap_row: join([gap_row[0], zero, zero, gap_row[1]]),
+            normal: join([scale(nu, T::from(-1.0)), zero, zero, zero]),
+            tangential: join([scale(tau, sense), zero, zero, scale(nu, sense * dot(turn, tau))]),
             parameter: join([xi[0], zero, zero, xi[1]]),
         }
     }
 
-    /// Linearisation of `c_n dg + c_t (virtual slip)` with respect to the motion: a form in (variation, increment),
+    /// Linearisation of `c_n (virtual gap) + c_t (virtual slip)` with respect to the motion: a form in (variation, increment),
     /// including the move of the projection. `third` is `y'''`.
     ///
     /// The increment changes the local vector by `Dz + z_xi Dxi`, `z_xi = (-a, b, y''', 0)`, and the variation of the

@@ -37,9 +37,10 @@ pub struct PointState {
     pub path: Path,
     /// Position.
     pub x: Point,
-    /// Mortar tangent and outward normal.
+    /// Unit vector along which slip and traction are positive.
     pub tangent: Vec2,
-    /// Outward normal.
+    /// Unit vector along which the pressure acts on the nonmortar body: the outward normal of the mortar curve, with ray
+    /// projection the inward normal of the nonmortar curve.
     pub normal: Vec2,
 }
 
@@ -67,16 +68,17 @@ impl Curves<'_> {
         let z = [d.x, d.y, a.x, a.y, b.x, b.y, edge.x, edge.y];
         let from = self.anchor(point, old, start, &here, &partner, trial.at);
         let path = path(self.mortar, trial.at.mortar, self.rule, from, partner.xi, gradient);
-        let tangent = a.normalize();
+        let frame = self.orientation.frame(&z);
+        let normal = Vec2::new(frame.normal[0], frame.normal[1]);
         Some(PointState {
-            frame: self.orientation.frame(&z),
+            frame,
             partner,
             z,
             third: [c.x, c.y],
             path,
             x: here.x,
-            tangent,
-            normal: rot90(tangent) * self.mortar.side,
+            tangent: rot90(normal) * -self.mortar.side,
+            normal,
         })
     }
 

@@ -5,8 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::issue::{Issue, KeyPath, SceneError};
+use super::motion::{Course, Motion};
 use super::numerics::{Integration, Projection, Sites};
-use super::spec::{BodySpec, ContactSpec, Course, MaterialSpec, Motion, Scene};
+use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
 use crate::contact;
 use crate::geometry::{self, BSpline, Basis, Edge, GeometryError, Point};
@@ -72,8 +73,7 @@ fn body_of(scene: &Scene, name: &str, body: &BodySpec, base_dir: &Path) -> Resul
     let (grading, centre) = (body.grading.as_ref(), Point::from(body.position));
     let material = body.material.as_ref().and_then(|name| scene.material.get(name));
     if let Some(material) = material.filter(|_| !body.rigid) {
-        let mut patch =
-            geometry::build(&body.shape, &body.basis, body.elements, grading, body.position, base_dir)?;
+        let mut patch = geometry::build(&body.shape, &body.basis, body.elements, grading, body.position, base_dir)?;
         turn(&mut patch.points, centre, body.rotation);
         return Ok(model::BodySpec::Deformable(patch, material_of(material)));
     }

@@ -92,7 +92,7 @@ pub struct Issue {
     /// A likely remedy.
     pub help: Option<String>,
     /// Where it was written; `None` for scenes that were made by a program.
-    pub place: Option<Place>,
+    pub place: Option<Box<Place>>,
 }
 
 impl Issue {
@@ -134,7 +134,7 @@ impl fmt::Display for Issue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "error: {}", self.message)?;
         let mut margin = 1;
-        match &self.place {
+        match self.place.as_deref() {
             Some(Place::File { file, line, column, text, width }) => {
                 margin = line.to_string().len();
                 writeln!(f, "{:margin$}--> {}:{line}:{column}", "", file.display())?;

@@ -10,6 +10,7 @@ mod build;
 mod fields;
 mod grammar;
 mod issue;
+mod motion;
 mod numerics;
 mod recorder;
 mod rules;
@@ -27,13 +28,11 @@ use serde::Deserialize;
 pub use build::build;
 pub use grammar::Grammar;
 pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
+pub use motion::{Components, Course, DriveSpec, Motion, SupportSpec, TimeTable};
 pub use numerics::{Integration, Numerics, Projection, Sites};
 pub use run::{run, sizes, status_name};
 pub use source::Source;
-pub use spec::{
-    BodySpec, Components, ContactSpec, Course, DriveSpec, MaterialSpec, Motion, OutputSpec, Scene, Side, SupportSpec,
-    TimeSpec, TimeTable, Units,
-};
+pub use spec::{BodySpec, ContactSpec, MaterialSpec, OutputSpec, Scene, Side, TimeSpec, Units};
 
 impl Scene {
     /// Reads and checks a scene file, with `--set` arguments (`PATH=VALUE`) applied first. The source is returned for

@@ -106,8 +106,7 @@ impl<'a> Recorder<'a> {
         data.write_charts(&target)?;
         let instants = choose(&self.records);
         let kept = instants.iter().filter_map(|instant| Some((instant, self.displacements.get(instant.index)?)));
-        let frames: Vec<_> =
-            kept.map(|(instant, u)| data.frame(instant, &fields::bodies(self.model, u))).collect();
+        let frames: Vec<_> = kept.map(|(instant, u)| data.frame(instant, &fields::bodies(self.model, u))).collect();
         if frames.len() == instants.len() {
             data.write_bodies(&target, &frames)?;
         }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::issue::{Issue, KeyPath};
-use super::spec::{BodySpec, ContactSpec, Course, DriveSpec, Motion, Scene, SupportSpec};
+use super::motion::{Course, DriveSpec, Motion, SupportSpec};
+use super::spec::{BodySpec, ContactSpec, Scene};
 use crate::geometry::Edge;
 
 /// More elements than this in one scene are taken for a slip of the pen.
@@ -137,7 +138,8 @@ fn prescribed_twice(scene: &Scene, issues: &mut Vec<Issue>) {
     let mut claim = |body, edge: Edge, component, key: KeyPath| {
         let place = (body, edge_name(edge), component);
         if let Some(first) = seen.get(&place) {
-            let message = format!("`{component}` of the {} edge of `{body}` is already given by {first}", edge_name(edge));
+            let message =
+                format!("`{component}` of the {} edge of `{body}` is already given by {first}", edge_name(edge));
             issues.push(Issue::value(key, message).allowed("each component of an edge supported or driven once"));
         } else {
             seen.insert(place, key);
@@ -180,11 +182,13 @@ fn contact_rules(scene: &Scene, contact: &ContactSpec, key: &KeyPath, issues: &m
     } else if rigid(nonmortar) {
         let both = if rigid(mortar) { "both sides are rigid" } else { "the nonmortar side is rigid" };
         let issue = Issue::value(key.at("nonmortar").at("body"), format!("`{nonmortar}`: {both}"));
-        issues.push(issue.allowed("a deformable body: the nonmortar side carries the multipliers").help(if rigid(mortar) {
-            "contact forces between two rigid bodies are undetermined: give one of them a material"
-        } else {
-            "exchange nonmortar and mortar"
-        }));
+        issues.push(issue.allowed("a deformable body: the nonmortar side carries the multipliers").help(
+            if rigid(mortar) {
+                "contact forces between two rigid bodies are undetermined: give one of them a material"
+            } else {
+                "exchange nonmortar and mortar"
+            },
+        ));
     }
     if let Err(error) = asperity_laws::parse(contact.law.clone()) {
         issues.push(Issue::value(key.at("law").at(error.key()), error.to_string()));

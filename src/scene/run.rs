@@ -40,7 +40,13 @@ pub fn run(
         Ok::<(), OutputError>(())
     })?;
     recorder.finish(scene)?;
-    let result = json!({
+    let result = conclusion(&outcome, &worst, clock.elapsed().as_secs_f64());
+    folder.write_run(&summary(scene, model, result))?;
+    Ok(outcome)
+}
+
+fn conclusion(outcome: &Outcome, worst: &Worst, wall_s: f64) -> Value {
+    json!({
         "status": status_name(&outcome.status),
         "reason": reason(&outcome.status),
         "time_reached": outcome.state.time,
@@ -49,10 +55,8 @@ pub fn run(
             "newton_iterations": outcome.iterations, "factorisations": outcome.factorisations,
         },
         "audit": worst.to_json(),
-        "wall_s": clock.elapsed().as_secs_f64(),
-    });
-    folder.write_run(&summary(scene, model, result))?;
-    Ok(outcome)
+        "wall_s": wall_s,
+    })
 }
 
 /// Name of a status in `run.json`.

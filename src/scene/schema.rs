@@ -184,9 +184,7 @@ fn describe_table(schema: &Schema) -> String {
 
 fn bounds(schema: &Schema) -> String {
     let mut words = vec![];
-    for (name, sign) in
-        [("exclusiveMinimum", ">"), ("minimum", ">="), ("exclusiveMaximum", "<"), ("maximum", "<=")]
-    {
+    for (name, sign) in [("exclusiveMinimum", ">"), ("minimum", ">="), ("exclusiveMaximum", "<"), ("maximum", "<=")] {
         if let Some(bound) = schema.get(name).and_then(Schema::as_f64) {
             words.push(format!(" {sign} {bound}"));
         }

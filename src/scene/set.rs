@@ -24,7 +24,7 @@ impl Source {
             *slot = value;
             Ok(())
         });
-        let place = Some(Place::Argument(set_argument(argument)));
+        let place = Some(Box::new(Place::Argument(set_argument(argument))));
         result.map_err(|issue| SceneError::from(Issue { place, ..issue }))
     }
 }
@@ -44,7 +44,7 @@ fn parse(argument: &str, index: usize) -> Result<(KeyPath, Node), Issue> {
             .help("text needs quotes of its own: --set 'title=\"steep flanks\"'")
     })?;
     let locate = |_| Origin::Set(index);
-    let tree = Node::from_table(&parsed, &locate).map_err(|(_, message)| Issue::value(path.clone(), message))?;
+    let tree = Node::from_table(&parsed, &locate).map_err(|bad| Issue::value(path.clone(), bad.message))?;
     match tree.item {
         Item::Table(mut map) if map.len() == 1 => match map.remove("value") {
             Some(node) => Ok((path, node)),

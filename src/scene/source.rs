@@ -33,15 +33,16 @@ impl Source {
             return Err(SceneError(issues));
         }
         let tree = Node::from_table(&table, &Origin::File);
-        source.root = tree.map_err(|(at, message)| {
-            let place = Some(source.place(&at));
-            SceneError::from(Issue { place, ..Issue::value(KeyPath::default(), message) })
+        source.root = tree.map_err(|bad| {
+            let place = Some(Box::new(source.place(&bad.at)));
+            let key = bad.upwards.into_iter().rev().collect();
+            SceneError::from(Issue { place, ..Issue::value(key, bad.message) })
         })?;
         Ok(source)
     }
 
     fn syntax(&self, error: &toml::de::Error) -> Issue {
-        let place = error.span().map(|span| self.place(&Origin::File(span)));
+        let place = error.span().map(|span| Box::new(self.place(&Origin::File(span))));
         Issue { place, ..Issue::value(KeyPath::default(), format!("not valid TOML: {}", error.message())) }
     }
 
@@ -60,7 +61,7 @@ impl Source {
             Origin::File(span) => span.start,
             Origin::Set(k) => self.text.len() + k,
         };
-        let place = issue.place.clone().or_else(|| Some(self.place(origin)));
+        let place = issue.place.clone().or_else(|| Some(Box::new(self.place(origin))));
         (start, Issue { place, ..issue })
     }
 

@@ -40,7 +40,19 @@ pub(super) enum Item {
 pub(super) type Locator<'a> = &'a dyn Fn(Range<usize>) -> Origin;
 
 /// A number that cannot be held, and where it stands.
-pub(super) type BadNumber = (Origin, String);
+pub(super) struct BadNumber {
+    /// Keys from the number up to the document.
+    pub upwards: Vec<String>,
+    pub at: Origin,
+    pub message: String,
+}
+
+impl BadNumber {
+    fn below(mut self, key: impl ToString) -> Self {
+        self.upwards.push(key.to_string());
+        self
+    }
+}
 
 impl Node {
     /// An empty table that was called for by the n-th `--set` argument.
@@ -59,7 +71,8 @@ impl Node {
         let item = match value.get_ref() {
             DeValue::Table(table) => entries(table, locate)?,
             DeValue::Array(array) => {
-                let nodes = array.iter().map(|v| Self::from_value(locate(v.span()), v, locate));
+                let node = |v: &Spanned<_>| Self::from_value(locate(v.span()), v, locate);
+                let nodes = array.iter().enumerate().map(|(k, v)| node(v).map_err(|bad| bad.below(k)));
                 Item::Array(nodes.collect::<Result<_, _>>()?)
             }
             DeValue::String(text) => Item::Leaf(Value::String(text.to_string())),
@@ -67,11 +80,11 @@ impl Node {
             DeValue::Datetime(time) => Item::Leaf(Value::Datetime(*time)),
             DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
                 Ok(number) => Item::Leaf(Value::Integer(number)),
-                Err(_) => return Err((at, format!("the integer {} does not fit into 64 bits", number.as_str()))),
+                Err(_) => return bad(at, format!("the integer {} does not fit into 64 bits", number.as_str())),
             },
             DeValue::Float(number) => match number.as_str().parse() {
                 Ok(number) => Item::Leaf(Value::Float(number)),
-                Err(_) => return Err((at, format!("{} is not a number", number.as_str()))),
+                Err(_) => return bad(at, format!("{} is not a number", number.as_str())),
             },
         };
         Ok(Self { key_at, at, item })
@@ -108,8 +121,14 @@ impl Node {
     }
 }
 
+fn bad(at: Origin, message: String) -> Result<Node, BadNumber> {
+    Err(BadNumber { upwards: vec![], at, message })
+}
+
 fn entries(table: &DeTable<'_>, locate: Locator) -> Result<Item, BadNumber> {
-    let node = |key: Range<usize>, value| Node::from_value(locate(key), value, locate);
-    let pairs = table.iter().map(|(key, value)| Ok((key.get_ref().to_string(), node(key.span(), value)?)));
+    let pairs = table.iter().map(|(key, value)| {
+        let node = Node::from_value(locate(key.span()), value, locate).map_err(|bad| bad.below(key.get_ref()))?;
+        Ok((key.get_ref().to_string(), node))
+    });
     Ok(Item::Table(pairs.collect::<Result<_, _>>()?))
 }

@@ -7,17 +7,15 @@ use super::{Instant, abscissa, marks};
 use crate::model::Record;
 use crate::output::{Quantity, UnitLabels};
 
-/// `Fx` and `Fy` of all converged rows; letters mark the chosen instants.
+/// `Fx` (resistance) and `Fy` (support) of all converged rows; letters mark the chosen instants.
 pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> String {
     let x = abscissa(records, units);
     let component = |c: usize| -> Vec<[f64; 2]> {
         let force = |record: &Record| if record.converged { record.force[c] } else { f64::NAN };
         x.values.iter().zip(records).map(|(x, record)| [*x, force(record)]).collect()
     };
-    let series = vec![
-        Series::new("*F*_y (support)", BLUE, component(1)),
-        Series::new("*F*_x (resistance)", VERMILLION, component(0)).dashed("5 1.6"),
-    ];
+    let series =
+        vec![Series::new("*F*_y", BLUE, component(1)), Series::new("*F*_x", VERMILLION, component(0)).dashed("5 1.6")];
     let values = series.iter().flat_map(|series| &series.points).map(|point| point[1]).chain([0.0]);
     let chart = Chart {
         y_label: units.axis("force per width *F*", Quantity::Force),
