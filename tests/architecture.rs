@@ -48,9 +48,7 @@ fn room_of(path: &Path) -> String {
 /// True where `word` stands alone in the text.
 fn names(text: &str, word: &str) -> bool {
     let part = |c: char| c.is_alphanumeric() || c == '_';
-    text.match_indices(word).any(|(at, _)| {
-        !text[..at].ends_with(part) && !text[at + word.len()..].starts_with(part)
-    })
+    text.match_indices(word).any(|(at, _)| !text[..at].ends_with(part) && !text[at + word.len()..].starts_with(part))
 }
 
 /// Names that follow `crate::`, the members of `crate::{...}` at its first level included.

@@ -1,5 +1,13 @@
 //! Hertz' line contact: a cylinder on a rigid plane and two cylinders, against the half-space solution
-//! (Johnson, Contact Mechanics, 1985, section 4.2(c); theory.md 4.2).
+//! (Johnson, Contact Mechanics, 1985, section 4.2(c); theory.md 4.2)
+//!
+//! ```text
+//! a = sqrt(4 F R/(pi E*)),   p0 = 2 F/(pi a),   p = p0 sqrt(1 - x^2/a^2)
+//! ```
+//!
+//! E = 1, nu = 0.3, small strain, a = 1, cylinders of radius 2000 cut to blocks 80 wide and 40 high, pressed by a force.
+//! The errors depend on where the contact edge lies inside an element: every figure is the mean (and the worst) over
+//! loads whose a/h is spread evenly over one element. L2 and maximal error are taken inside |x| < 0.9 a.
 
 use std::convert::Infallible;
 use std::f64::consts::PI;
@@ -8,7 +16,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use asperity::bulk::LinearElastic;
-use asperity::contact::Sites;
+use asperity::contact::{Integration, InterfaceForces, Sites};
 use asperity::geometry::shapes::{Along, ArcProfile, Block};
 use asperity::geometry::{BasisSpec, Edge, Grading, Profile, ShapeSpec, build, build_edge};
 use asperity::laws::builtin::Frictionless;
@@ -17,78 +25,99 @@ use asperity::model::{BodySpec, Builder, Control, Model, PairSpec, State, Table}
 use asperity::solve::{self, Status};
 
 const NU: f64 = 0.3;
+const RADIUS: f64 = 2000.0;
+/// Half the width of the zone of small elements.
+const FINE: f64 = 1.5;
+/// Growth from element to element outside.
+const GROWTH: f64 = 0.25;
+/// Loads per element.
+const PHASES: usize = 5;
 
-/// A Hertz problem with E = 1 and the nominal contact half-width a = 1.
 #[derive(Clone, Copy, Debug)]
 struct Case {
-    rigid: bool,
+    /// Cylinder on a rigid plane, or two cylinders.
+    plane: bool,
+    /// Elements on the nominal half-width of the contact.
     per_a: f64,
+    /// Half-width of the contact that is aimed at.
+    a: f64,
     basis: BasisSpec,
     sites: Sites,
+    integration: Integration,
+    r: f64,
     /// Half the width of a body, and its height.
     size: f64,
-    radius: f64,
-    growth: f64,
-    zone: f64,
-    points: usize,
-    r: f64,
-    target: f64,
 }
 
+const PLANE: Case = Case {
+    plane: true,
+    per_a: 9.0,
+    a: 1.0,
+    basis: BasisSpec::Nurbs { degree: 2 },
+    sites: Sites::Quadrature,
+    integration: Integration::Element,
+    r: 1.0,
+    size: 40.0,
+};
+const TWO: Case = Case { plane: false, ..PLANE };
+
 impl Case {
-    fn modulus(&self) -> f64 {
-        let plane_strain = 1.0 / (1.0 - NU * NU);
-        if self.rigid { plane_strain } else { 0.5 * plane_strain }
+    /// Contact modulus E* and radius R.
+    fn contact(&self) -> (f64, f64) {
+        let modulus = 1.0 / (1.0 - NU * NU);
+        if self.plane { (modulus, RADIUS) } else { (0.5 * modulus, 0.5 * RADIUS) }
     }
-    fn curvature_radius(&self) -> f64 {
-        if self.rigid { self.radius } else { 0.5 * self.radius }
-    }
+
     fn force(&self) -> f64 {
-        PI * self.modulus() * self.target.powi(2) / (4.0 * self.curvature_radius())
+        let (modulus, radius) = self.contact();
+        PI * modulus * self.a.powi(2) / (4.0 * radius)
     }
-    fn mesh(&self, edge: Edge, h: f64) -> ([usize; 2], Grading) {
-        let (g, zone) = (self.growth, self.zone);
-        let ratios = [self.size - zone, self.size].map(|length| 1.0 + g * length / h);
-        let outside = ratios.map(|ratio| ratio.ln() / g);
-        let along = Along { center: 0.0, half_width: zone, ratio: ratios[0] };
-        let elements = [2 * (zone / h + outside[0]).round() as usize, outside[1].round() as usize];
-        (elements, Grading { toward: Some(edge), ratio: Some(ratios[1]), along: Some(along) })
-    }
-    fn cylinder(&self, up: bool) -> BodySpec {
-        let arc = Profile::Arc(ArcProfile { radius: self.radius, height: None, centers: None, count: None, spacing: None });
-        let x = [-self.size, self.size];
-        let rise = self.radius - (self.radius.powi(2) - self.size.powi(2)).sqrt();
-        let overlap = 0.1 / self.radius;
-        let (block, edge, y, h) = if up {
-            (Block { x, y: [-self.size, 0.0], top: arc, bottom: Profile::default() }, Edge::Top, -rise, 0.93 / self.per_a)
-        } else {
-            let block = Block { x, y: [0.0, self.size], top: Profile::default(), bottom: arc };
-            (block, Edge::Bottom, rise - overlap, 1.0 / self.per_a)
+
+    /// A cylinder whose round side has elements of length `h` at the contact; its apex is at `apex`.
+    fn cylinder(&self, round: Edge, h: f64, apex: f64) -> BodySpec {
+        let arc = ArcProfile { radius: RADIUS, height: None, centers: None, count: None, spacing: None };
+        let (arc, flat, x) = (Profile::Arc(arc), Profile::default(), [-self.size, self.size]);
+        let rise = RADIUS - (RADIUS.powi(2) - self.size.powi(2)).sqrt();
+        let (block, y) = match round {
+            Edge::Top => (Block { x, y: [-self.size, 0.0], top: arc, bottom: flat }, apex - rise),
+            _ => (Block { x, y: [0.0, self.size], top: flat, bottom: arc }, apex + rise),
         };
-        let (elements, grading) = self.mesh(edge, h);
-        let patch = build(&ShapeSpec::Block(block), &self.basis, elements, Some(&grading), [0.0, y], Path::new("."));
-        let material = LinearElastic { youngs_modulus: 1.0, poissons_ratio: NU };
-        BodySpec::Deformable(patch.expect("a block"), Arc::new(material))
-    }
-    fn plane(&self) -> BodySpec {
-        let x = [-2.0 * self.size, 2.0 * self.size];
-        let block = Block { x, y: [-1.0, 0.0], top: Profile::default(), bottom: Profile::default() };
+        let [aside, across] = [self.size - FINE, self.size].map(|length| 1.0 + GROWTH * length / h);
+        let along = Along { center: 0.0, half_width: FINE, ratio: aside };
+        let grading = Grading { toward: Some(round), ratio: Some(across), along: Some(along) };
+        let counts = [2.0 * (FINE / h + aside.ln() / GROWTH), across.ln() / GROWTH].map(|n| n.round() as usize);
         let shape = ShapeSpec::Block(block);
-        let basis = BasisSpec::Nurbs { degree: 1 };
-        let curve = build_edge(&shape, Edge::Top, &basis, [1, 1], None, [0.0, 0.0], Path::new("."));
-        BodySpec::Rigid(vec![(Edge::Top, curve.expect("a line"))])
+        let patch = build(&shape, &self.basis, counts, Some(&grading), [0.0, y], Path::new(".")).expect("a block");
+        BodySpec::Deformable(patch, Arc::new(LinearElastic { youngs_modulus: 1.0, poissons_ratio: NU }))
     }
+
+    fn counterpart(&self) -> BodySpec {
+        if !self.plane {
+            return self.cylinder(Edge::Top, 0.93 / self.per_a, 0.0);
+        }
+        let block = Block {
+            x: [-2.0 * self.size, 2.0 * self.size],
+            y: [-1.0, 0.0],
+            top: Profile::default(),
+            bottom: Profile::default(),
+        };
+        let (shape, basis) = (ShapeSpec::Block(block), BasisSpec::Nurbs { degree: 1 });
+        let line = build_edge(&shape, Edge::Top, &basis, [1, 1], None, [0.0; 2], Path::new(".")).expect("a line");
+        BodySpec::Rigid(vec![(Edge::Top, line)])
+    }
+
+    /// The upper body starts with a small overlap and is held by the contact alone.
     fn model(&self) -> Model {
         let mut builder = Builder::default();
         let hold = || Control::Displacement(Table::constant(0.0));
         let press = Control::Force(Table::constant(-self.force()));
         let mut pair = PairSpec::new(("upper", Edge::Bottom), ("lower", Edge::Top), Arc::new(Frictionless {}));
         pair.sites = Some(self.sites);
+        pair.integration = Some(self.integration);
         pair.r = Some(self.r);
-        if self.points > 0 { pair.points = Some(self.points); }
         let built = (|| {
-            builder.body("upper", self.cylinder(false))?;
-            builder.body("lower", if self.rigid { self.plane() } else { self.cylinder(true) })?;
+            builder.body("upper", self.cylinder(Edge::Bottom, 1.0 / self.per_a, -0.1 / RADIUS))?;
+            builder.body("lower", self.counterpart())?;
             builder.motion("lower", Edge::Bottom, 0, hold(), false)?.motion("lower", Edge::Bottom, 1, hold(), false)?;
             builder.motion("upper", Edge::Top, 0, hold(), true)?.motion("upper", Edge::Top, 1, press, true)?;
             builder.contact(pair);
@@ -96,87 +125,142 @@ impl Case {
         })();
         built.expect("a valid model")
     }
+
+    /// Errors against Hertz' solution for the force that is found, in percent.
+    fn errors(&self) -> [f64; 3] {
+        let model = self.model();
+        let control = solve::Control { end: 1.0, steps: 1, max_cuts: 0 };
+        let (quiet, mut solver) = (AtomicBool::new(false), SparseLu::default());
+        let mut found = None;
+        let outcome = solve::march(&model, State::initial(&model), &control, &mut solver, &quiet, |report| {
+            found = Some(report.evaluation.interfaces[0].clone());
+            Ok::<(), Infallible>(())
+        });
+        let outcome = outcome.unwrap_or_else(|e| match e {});
+        assert_eq!(outcome.status, Status::Done, "{self:?}");
+        let interface = found.expect("one step");
+        self.compare(interface.normal_force.y, &pressures(&model, &outcome.state, &interface, self.sites))
+    }
+
+    /// `[relative L2, maximum over p0, peak]` inside 0.9 a, in percent, from `[x, p, weight]`.
+    fn compare(&self, force: f64, found: &[[f64; 3]]) -> [f64; 3] {
+        let (modulus, radius) = self.contact();
+        let a = (4.0 * force * radius / (PI * modulus)).sqrt();
+        let p0 = 2.0 * force / (PI * a);
+        assert!((a / self.a - 1.0).abs() < 1e-7, "the contact carries the load");
+        let exact = |x: f64| p0 * (1.0 - (x / a).powi(2)).max(0.0).sqrt();
+        let (mut square, mut scale, mut worst, mut peak) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+        for &[x, p, w] in found.iter().filter(|s| s[0].abs() < 0.9 * a) {
+            let error = p - exact(x);
+            square += w * error.powi(2);
+            scale += w * exact(x).powi(2);
+            worst = worst.max(error.abs());
+            peak = peak.max(p);
+        }
+        [(square / scale).sqrt(), worst / p0, (peak / p0 - 1.0).abs()].map(|e| 100.0 * e)
+    }
 }
 
-fn report(name: &str, case: &Case) -> [[f64;4];2] {
-    let model = case.model();
-    let clock = std::time::Instant::now();
-    let control = solve::Control { end: 1.0, steps: 1, max_cuts: 6 };
-    let quiet = AtomicBool::new(false);
-    let mut found = None;
-    let out = solve::march(&model, State::initial(&model), &control, &mut SparseLu::default(), &quiet, |r| {
-        found = Some((r.state.clone(), r.evaluation.interfaces[0].clone(), r.record));
-        Ok::<(), Infallible>(())
-    }).unwrap();
-    let Status::Done = out.status else { println!("{name} {case:?} {:?}", out.status); return [[f64::NAN;4];2]; };
-    let (state, interface, record) = found.unwrap();
-    let force = interface.normal_force.y;
-    let (es, rr) = (case.modulus(), case.curvature_radius());
-    let a = (4.0 * force * rr / (PI * es)).sqrt();
-    let p0 = 2.0 * force / (PI * a);
-    let hertz = |x: f64| p0 * (1.0 - (x / a).powi(2)).max(0.0).sqrt();
-    let sites: Vec<[f64; 3]> = interface.sites.iter().map(|s| [s.x.x, s.pressure, s.weight]).collect();
-    let Some(patch) = model.bodies[0].patch() else { unreachable!() };
-    let curve = patch.boundary(Edge::Bottom);
-    let breaks = curve.basis.breaks().to_vec();
-    let mut field = vec![];
-    for span in 0..curve.spans() {
-        for k in 0..8 {
-            let xi = breaks[span] + (breaks[span + 1] - breaks[span]) * (k as f64 + 0.5) / 8.0;
-            let s = curve.shape(span, xi);
-            let x = curve.place(&s, 0, &curve.points).x;
-            let p: f64 = (0..s.count).map(|i| s.d[0][i] * state.pairs[0].pressure[s.first + i]).sum();
-            field.push([x, p, (breaks[span + 1] - breaks[span]) / 8.0]);
-        }
+/// `[x, pressure, weight]`: the sites themselves, or the multiplier field of `nodal` sites at eight places per element.
+fn pressures(model: &Model, state: &State, interface: &InterfaceForces, sites: Sites) -> Vec<[f64; 3]> {
+    if sites == Sites::Quadrature {
+        return interface.sites.iter().map(|s| [s.x.x, s.pressure, s.weight]).collect();
     }
-    let measure = |f: &[[f64; 3]]| {
-        let inside = || f.iter().filter(|s| s[0].abs() < 0.9 * a);
-        let n: f64 = inside().map(|s| s[2] * (s[1] - hertz(s[0])).powi(2)).sum();
-        let d: f64 = inside().map(|s| s[2] * hertz(s[0]).powi(2)).sum();
-        let worst = inside().fold([0.0, 0.0], |m: [f64; 2], s| { let e = (s[1] - hertz(s[0])).abs() / p0; if e > m[1] { [s[0] / a, e] } else { m } });
-        let peak = f.iter().fold(0.0_f64, |m, s| m.max(s[1])) / p0 - 1.0;
-        [100.0 * (n / d).sqrt(), 100.0 * worst[1], worst[0], 100.0 * peak]
+    let curve = model.bodies[0].edge(Edge::Bottom).expect("the nonmortar edge");
+    let breaks = curve.basis.breaks().to_vec();
+    let at = |k: usize| {
+        let (span, length) = (k / 8, breaks[k / 8 + 1] - breaks[k / 8]);
+        let shape = curve.shape(span, breaks[span] + length * ((k % 8) as f64 + 0.5) / 8.0);
+        let p: f64 = (0..shape.count).map(|i| shape.d[0][i] * state.pairs[0].pressure[shape.first + i]).sum();
+        [curve.place(&shape, 0, &curve.points).x, p, length]
     };
-    let (s, f) = (measure(&sites), measure(&field));
-    if std::env::var("DUMP").is_ok() { for q in &sites { if q[0].abs() < 1.2*a { println!("{:8.4} {:9.5} {:9.5}", q[0]/a, q[1]/p0, hertz(q[0])/p0); } } }
-    if std::env::var("EACH").is_ok() { println!("{name:26} n={:5} F/F0={:.8} a={a:.5} it={:2} cuts={} {:5.1}s  sites L2 {:6.3} max {:6.3} @{:6.3} peak {:6.3} | field L2 {:6.3} max {:6.3} @{:6.3} peak {:6.3}",
-        model.unknowns(), force / case.force(), record.newton_iterations, record.cuts, clock.elapsed().as_secs_f64(), s[0], s[1], s[2], s[3], f[0], f[1], f[2], f[3]); }
-    [s, f]
+    (0..8 * curve.spans()).map(at).collect()
+}
+
+/// Mean and worst `[L2, maximum, peak]` over the phases; prints a row.
+fn measure(name: &str, case: Case) -> [[f64; 3]; 2] {
+    let phase = |k: usize| 1.0 + ((k as f64 + 0.5) / PHASES as f64 - 0.5) / case.per_a;
+    let all: Vec<[f64; 3]> = (0..PHASES).map(|k| Case { a: phase(k), ..case }.errors()).collect();
+    let mean = [0, 1, 2].map(|i| all.iter().map(|e| e[i]).sum::<f64>() / PHASES as f64);
+    let worst = [0, 1, 2].map(|i| all.iter().map(|e| e[i]).fold(0.0, f64::max));
+    let cell = |i: usize| format!("{:6.3} ({:6.3})", mean[i], worst[i]);
+    println!("{name:44} {:4.1}  {}  {}  {}", case.per_a, cell(0), cell(1), cell(2));
+    [mean, worst]
+}
+
+fn heading() {
+    println!("{:44}  a/h  L2 mean (worst)  max of p0        peak         all in %", "");
+}
+
+/// Errors at a/h = 4.5, 9, 18 with the defaults, their bounds and rates.
+///
+/// The means are below the best peers (issue: 1.1 %, 1.9 % and 0.9 % at a/h = 9; 2.9 % maximal at 18). The worst load is
+/// the one whose contact ends just inside an element: the error is that of the last half element before x = a.
+fn converges(name: &str, case: Case) {
+    heading();
+    let [coarse, middle, fine] = [4.5, 9.0, 18.0].map(|per_a| measure(name, Case { per_a, ..case }));
+    let rate = |i: usize| (coarse[0][i] / fine[0][i]).log2() / 2.0;
+    println!("{name:44} rate {:5.2}            {:5.2}", rate(0), rate(1));
+    below(middle, [0.8, 1.9, 0.1], [1.5, 4.0, 0.2]);
+    below(fine, [0.25, 0.9, 0.2], [0.4, 1.4, 0.2]);
+    assert!(rate(0) > 1.3 && rate(1) > 0.8, "p has a vertical tangent at x = a");
+}
+
+/// Asserts bounds of the mean and of the worst.
+fn below(found: [[f64; 3]; 2], mean: [f64; 3], worst: [f64; 3]) {
+    for (found, bound) in found.into_iter().zip([mean, worst]) {
+        assert!(found.iter().zip(bound).all(|(e, b)| *e < b), "{found:?} should be below {bound:?}");
+    }
 }
 
 #[test]
-fn lab() {
-    let base = Case { rigid: true, per_a: 9.0, basis: BasisSpec::Nurbs { degree: 2 }, sites: Sites::Quadrature, size: 40.0, radius: 2000.0, growth: 0.2, zone: 1.5, points: 0, r: 1.0, target: 1.0 };
-    let only = std::env::var("LAB").unwrap_or_default();
-    let go = |name: &str, case: Case| if name.contains(&only) {
-      for n in [4.5, 9.0, 18.0, 36.0] {
-        let mut all = vec![];
-        let clock = std::time::Instant::now();
-        for k in 0..8 { let t = 1.0 + ((k as f64 + 0.5) / 8.0 - 0.5) / n; all.push(report(name, &Case { per_a: n, target: t, ..case })); }
-        let mean = |w: usize, c: usize| all.iter().map(|r| r[w][c].abs()).sum::<f64>() / 8.0;
-        let worst = |w: usize, c: usize| all.iter().map(|r| r[w][c].abs()).fold(0.0, f64::max);
-        print!("{name:16} a/h={n:4} ");
-        for w in 0..2 { print!(" {} L2 {:6.3} ({:6.3}) max {:6.3} ({:6.3}) peak {:6.3} ({:6.3})", ["sites", "field"][w], mean(w,0), worst(w,0), mean(w,1), worst(w,1), mean(w,3), worst(w,3)); }
-        println!(" {:.1}s", clock.elapsed().as_secs_f64());
-      }
-    };
-    let p = |degree| BasisSpec::Nurbs { degree };
-    let l = |degree| BasisSpec::Lagrange { degree };
-    go("A p2 plane", base);
-    go("A p2 two", Case { rigid: false, ..base });
-    go("B p2 plane nodal", Case { sites: Sites::Nodal, ..base });
-    go("B p2 two nodal", Case { rigid: false, sites: Sites::Nodal, ..base });
-    go("C p3 plane", Case { basis: p(3), ..base });
-    go("C l2 plane", Case { basis: l(2), ..base });
-    go("C l1 plane", Case { basis: l(1), ..base });
-    go("C p3 two", Case { rigid: false, basis: p(3), ..base });
-    go("C l2 two", Case { rigid: false, basis: l(2), ..base });
-    go("C l1 two", Case { rigid: false, basis: l(1), ..base });
-    go("D p2 plane size80", Case { size: 80.0, ..base });
-    go("D p2 plane r.3", Case { r: 0.3, ..base });
-    go("D p2 plane r3", Case { r: 3.0, ..base });
-    go("D p2 plane growth.1", Case { growth: 0.1, ..base });
-    go("D p2 plane points5", Case { points: 5, ..base });
-    go("E l1 plane nodal", Case { basis: l(1), sites: Sites::Nodal, ..base });
-    go("E l2 plane nodal", Case { basis: l(2), sites: Sites::Nodal, ..base });
+fn cylinder_on_a_rigid_plane() {
+    converges("plane, nurbs 2", PLANE);
+    below(measure("plane, nurbs 2, r = 2", Case { r: 2.0, ..PLANE }), [0.6, 1.5, 0.1], [0.9, 2.5, 0.2]);
+}
+
+#[test]
+fn two_cylinders() {
+    converges("two, nurbs 2", TWO);
+}
+
+#[test]
+fn other_bases_and_sites() {
+    heading();
+    let lagrange = |degree| Case { basis: BasisSpec::Lagrange { degree }, ..PLANE };
+    let cubic = Case { basis: BasisSpec::Nurbs { degree: 3 }, ..PLANE };
+    below(measure("plane, nurbs 3", cubic), [0.8, 1.9, 0.2], [1.2, 2.5, 0.2]);
+    // Lagrange elements of degree 2 have twice the nodes.
+    below(measure("plane, lagrange 2", lagrange(2)), [0.4, 1.5, 0.1], [0.8, 2.2, 0.1]);
+    below(measure("plane, lagrange 1", lagrange(1)), [1.8, 5.5, 0.9], [2.8, 8.0, 0.9]);
+    let segments = Case { plane: false, integration: Integration::Segment, ..lagrange(2) };
+    below(measure("two, lagrange 2, segments", segments), [0.5, 1.7, 0.1], [0.9, 3.0, 0.2]);
+    let nodal = Case { sites: Sites::Nodal, ..PLANE };
+    below(measure("plane, nurbs 2, nodal sites", nodal), [2.2, 6.0, 0.2], [4.0, 10.0, 0.2]);
+    let nodal = Case { per_a: 18.0, ..nodal };
+    below(measure("plane, nurbs 2, nodal sites", nodal), [0.7, 2.9, 0.1], [1.1, 4.0, 0.2]);
+    let fine = Case { per_a: 18.0, ..lagrange(2) };
+    below(measure("plane, lagrange 2", fine), [0.1, 0.4, 0.1], [0.2, 0.6, 0.1]);
+}
+
+/// Kinks of the mortar side inside a nonmortar element: Gauss points on the elements integrate across them, which
+/// spoils the pressure of quadratic Lagrange elements and does not go away with h. Segments end at the kinks.
+#[test]
+fn kinks_of_the_mortar_side_want_segments() {
+    let case = Case { basis: BasisSpec::Lagrange { degree: 2 }, per_a: 14.0, ..TWO };
+    let element = case.errors();
+    let segment = Case { integration: Integration::Segment, ..case }.errors();
+    println!("two, lagrange 2, a/h = 14: elements {element:.3?}, segments {segment:.3?} (L2, max, peak in %)");
+    assert!(segment[0] < 0.3 && segment[0] < 0.2 * element[0]);
+}
+
+/// What the half-space solution itself is worth here: twice the domain moves the errors by less than 0.1 % of p0.
+#[test]
+fn domain_is_large_enough() {
+    for case in [PLANE, TWO] {
+        let case = Case { per_a: 14.0, ..case };
+        let [small, large] = [40.0, 80.0].map(|size| Case { size, ..case }.errors());
+        println!("domain 40 a {small:.3?}, 80 a {large:.3?} (L2, max, peak in %)");
+        assert!(small.iter().zip(large).all(|(s, l)| (s - l).abs() < 0.1));
+    }
 }

@@ -74,7 +74,10 @@ fn sticks_without_any_slip_below_the_limit() {
             let ratio = rows.iter().fold(0.0_f64, |m, r| m.max((r.traction.abs() / r.pressure - theta.tan()).abs()));
             println!(
                 "{degrees:4} {basis:?} {sites:?}: {} iterations, {} cuts, slip {slip:.1e}, q/p - tan {ratio:.1e}, Fx {:.1e}, Fy - F {:.1e}",
-                found.outcome.iterations, found.outcome.cuts, last.force[0], last.force[1] - FORCE
+                found.outcome.iterations,
+                found.outcome.cuts,
+                last.force[0],
+                last.force[1] - FORCE
             );
             assert!(rows.iter().all(|r| r.status == ContactStatus::Stick), "{rows:?}");
             assert!(slip < 1e-12 && ratio < 1e-8, "slip {slip:.1e}, q/p {ratio:.1e}");
@@ -89,7 +92,11 @@ fn has_no_equilibrium_beyond_the_limit() {
         for sites in [Sites::Quadrature, Sites::Nodal] {
             let found = pressed(degrees, 1.01, BASES[0], sites);
             println!("{degrees:4} {sites:?}: {:?}, {} iterations", found.outcome.status, found.outcome.iterations);
-            assert!(matches!(found.outcome.status, Status::NotConverged { time: 0.0, .. }), "{:?}", found.outcome.status);
+            assert!(
+                matches!(found.outcome.status, Status::NotConverged { time: 0.0, .. }),
+                "{:?}",
+                found.outcome.status
+            );
             assert!(found.records.is_empty());
         }
     }

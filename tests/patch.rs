@@ -78,7 +78,8 @@ fn model(setup: &Setup) -> Model {
     let body = |patch| BodySpec::Deformable(patch, material(setup.finite_strain));
     let lower = quadrilateral(setup.basis, [7, 3], [0.0; 2], setup.interface);
     let upper = quadrilateral(setup.basis, [5, 2], setup.interface, [1.0; 2]);
-    let mut pair = PairSpec::new(("upper", Edge::Bottom), ("lower", Edge::Top), Arc::new(Coulomb { friction: setup.friction }));
+    let mut pair =
+        PairSpec::new(("upper", Edge::Bottom), ("lower", Edge::Top), Arc::new(Coulomb { friction: setup.friction }));
     (pair.sites, pair.integration) = (Some(setup.sites), Some(setup.integration));
     let built = (|| {
         builder.body("lower", body(lower))?.body("upper", body(upper))?;
@@ -186,7 +187,15 @@ const INCLINED: [f64; 2] = [0.4, 0.65];
 fn cases(basis: BasisSpec, finite_strain: bool, integration: Integration) -> Vec<(&'static str, Setup)> {
     let stress = if finite_strain { 100.0 } else { 10.0 };
     let strain = stress / MODULUS;
-    let setup = |load, interface, friction| Setup { basis, finite_strain, load, interface, friction, sites: Sites::Quadrature, integration };
+    let setup = |load, interface, friction| Setup {
+        basis,
+        finite_strain,
+        load,
+        interface,
+        friction,
+        sites: Sites::Quadrature,
+        integration,
+    };
     vec![
         ("flat, displacement", setup(Load::Displacement(strain), FLAT, 0.0)),
         ("flat, pressure", setup(Load::Pressure(stress), FLAT, 0.0)),
@@ -205,7 +214,9 @@ fn segment_wise_integration_is_exact() {
             for (name, setup) in cases(basis, finite_strain, Integration::Segment) {
                 for sites in [Sites::Quadrature, Sites::Nodal] {
                     let [p, u] = errors(&Setup { sites, ..setup });
-                    println!("{basis:?} finite {finite_strain:5} {sites:?} {name:30} pressure {p:.1e} displacement {u:.1e}");
+                    println!(
+                        "{basis:?} finite {finite_strain:5} {sites:?} {name:30} pressure {p:.1e} displacement {u:.1e}"
+                    );
                     worst = [worst[0].max(p), worst[1].max(u)];
                 }
             }
@@ -275,7 +286,10 @@ fn pressure_ring() {
         for integration in [Integration::Segment, Integration::Element] {
             let errors = [1, 2, 4].map(|refinement| ring_error(degree, refinement, integration));
             let rate = (errors[0] / errors[1]).log2();
-            println!("ring p = {degree} {integration:?}: {:.1e} {:.1e} {:.1e}, first rate {rate:.2}", errors[0], errors[1], errors[2]);
+            println!(
+                "ring p = {degree} {integration:?}: {:.1e} {:.1e} {:.1e}, first rate {rate:.2}",
+                errors[0], errors[1], errors[2]
+            );
             match integration {
                 Integration::Segment => assert!(errors[2] < 1e-6 && (degree > 2 || rate > 2.5), "{errors:?}"),
                 Integration::Element => assert!(errors[2] < [2e-2, 2e-3][degree - 2], "{errors:?}"),

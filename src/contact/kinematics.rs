@@ -17,8 +17,13 @@
 //! With `m = a.a`, `t = a/|a|`, `n` the outward mortar normal, `g = d.n`, `k = n.b`, `D = m - g k` (design section 4):
 //!
 //! ```text
-//! dg  = dd.n                    dxi = (dd.a + g n.da) / D             virtual slip = |a| dxi
+//! dg  = dd.n                    dxi = (dd.a + g n.da) / D
+//! virtual gap = dg              virtual slip = dd.t + g n.da/|a| = (D/m) |a| dxi
 //! ```
+//!
+//! The factor `D/m = 1 - g k/m` makes the friction resultant exactly `q t`; with `|a| dxi` alone it would be `q t m/D`, and
+//! `Fx/Fy = tan(atan mu + contact angle)` would hold only up to the penetration times the curvature. Both vanish under
+//! rigid rotation (`dd = w x d`, `da = w x a`), so linear and angular momentum balance exactly.
 //!
 //! # Ray along the nonmortar normal, `x + g nu = y`
 //!
@@ -103,7 +108,7 @@ impl Orientation {
             gap,
             gap_row: join([n, zero, zero, zero]),
             normal: join([n, zero, zero, zero]),
-            tangential: join([scale(xi[0], length), scale(xi[1], length), zero, zero]),
+            tangential: join([scale(a, length.recip()), scale(n, gap * length.recip()), zero, zero]),
             parameter: join([xi[0], xi[1], zero, zero]),
         }
     }

@@ -102,9 +102,9 @@ fn checked(matrix: &SparseMatrix, rhs: &[f64], apply: impl Fn(&[f64]) -> Vec<f64
 fn backward_error(matrix: &SparseMatrix, x: &[f64], rhs: &[f64], residual: &[f64]) -> f64 {
     let mut scale: Vec<f64> = rhs.iter().map(|b| b.abs()).collect();
     let pattern = &matrix.pattern;
-    for j in 0..pattern.n {
-        for k in pattern.columns[j]..pattern.columns[j + 1] {
-            scale[pattern.rows[k]] += (matrix.values[k] * x[j]).abs();
+    for (range, xj) in pattern.columns.windows(2).zip(x) {
+        for k in range[0]..range[1] {
+            scale[pattern.rows[k]] += (matrix.values[k] * xj).abs();
         }
     }
     let largest = scale.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(*v));

@@ -52,9 +52,9 @@ impl SparseMatrix {
     /// `y = A x`.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.pattern.n];
-        for j in 0..self.pattern.n {
-            for k in self.pattern.columns[j]..self.pattern.columns[j + 1] {
-                y[self.pattern.rows[k]] += self.values[k] * x[j];
+        for (range, xj) in self.pattern.columns.windows(2).zip(x) {
+            for k in range[0]..range[1] {
+                y[self.pattern.rows[k]] += self.values[k] * xj;
             }
         }
         y

@@ -45,14 +45,16 @@ impl Ledger {
     }
 }
 
-/// How the last step moved, per time and apart from the rigid motion of driven bodies: what the next step is
-/// extrapolated from.
+/// How the unknowns moved lately, apart from the rigid motion of driven bodies: what the next step is extrapolated from.
+/// Unknowns in the order of [`State::flat`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trend {
-    /// Rates of the control points.
-    pub u: Vec<Point>,
-    /// Rates of the pressure and traction multipliers of each pair.
-    pub multipliers: Vec<[Vec<f64>; 2]>,
+    /// Length of the last step.
+    pub dt: f64,
+    /// Rates over the last step.
+    pub rate: Vec<f64>,
+    /// Change of the rates per time, from the step before; empty after the first step.
+    pub change: Vec<f64>,
 }
 
 /// Configuration, multipliers and memory at one time.
@@ -90,6 +92,18 @@ impl State {
         };
         state.prescribe(model, 0.0);
         state
+    }
+
+    /// Displacements, then pressures and tractions of every pair, one after the other.
+    pub fn flat(&self) -> impl Iterator<Item = f64> + '_ {
+        let multipliers = self.pairs.iter().flat_map(|p| p.pressure.iter().chain(&p.traction));
+        self.u.iter().flat_map(|u| [u.x, u.y]).chain(multipliers.copied())
+    }
+
+    /// The same, to be changed.
+    pub fn flat_mut(&mut self) -> impl Iterator<Item = &mut f64> + '_ {
+        let multipliers = self.pairs.iter_mut().flat_map(|p| p.pressure.iter_mut().chain(&mut p.traction));
+        self.u.iter_mut().flat_map(|u| u.iter_mut()).chain(multipliers)
     }
 
     /// Sets the time and every prescribed displacement component.

@@ -4,12 +4,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::contact::ContactStatus;
 use crate::math::{LinearSolver, SolveError};
-use crate::model::{Evaluation, Model, State, evaluate};
+use crate::model::{Control, Evaluation, Model, State, evaluate};
 
-use super::predictor::{first_guess, trend};
+use super::predictor::{guesses, trend};
 
-/// Largest number of iterations of one step.
-const MAX_ITERATIONS: usize = 25;
+/// Largest number of iterations from one guess.
+const MAX_ITERATIONS: usize = 20;
 /// Accepted residual relative to the largest nodal force.
 const RELATIVE: f64 = 1e-9;
 /// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
@@ -54,10 +54,11 @@ pub struct NewtonReport {
     pub residuals: Vec<f64>,
 }
 
-/// Solves the step from `start` to `time`. On failure `iterations` still counts the work done.
+/// Solves the step from `start` to `time`, from the best of the guesses and, where Newton fails, from the next.
+/// `iterations` counts the linear solves, failed attempts included.
 ///
 /// # Errors
-/// [`StepFailure`]; `start` is untouched.
+/// The first failure; `start` is untouched.
 pub fn solve_step(
     model: &Model,
     start: &State,
@@ -66,7 +67,27 @@ pub fn solve_step(
     interrupt: &AtomicBool,
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
-    let mut trial = first_guess(model, start, time).ok_or(StepFailure::Inverted(0))?;
+    let mut failure = StepFailure::Inverted(0);
+    for (k, guess) in guesses(model, start, time).into_iter().enumerate() {
+        match newton(model, start, guess, solver, interrupt, iterations) {
+            Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
+            Err(error) if k == 0 => failure = error,
+            Err(_) => {}
+            done => return done,
+        }
+    }
+    Err(failure)
+}
+
+/// Newton's method from one guess.
+fn newton(
+    model: &Model,
+    start: &State,
+    mut trial: State,
+    solver: &mut dyn LinearSolver,
+    interrupt: &AtomicBool,
+    iterations: &mut usize,
+) -> Result<NewtonReport, StepFailure> {
     let mut evaluation = evaluate(model, start, &trial, true).ok_or(StepFailure::Inverted(0))?;
     let mut residuals = Vec::new();
     let floor = ROUND_OFF * model.modulus * model.size();
@@ -85,14 +106,23 @@ pub fn solve_step(
             return Err(StepFailure::Interrupted);
         }
         *iterations += 1;
-        let right: Vec<f64> = evaluation.residual.iter().map(|v| -v).collect();
-        let mut system = evaluation.system.take().expect("evaluated with tangent");
-        support_floating(model, &evaluation, &mut system.interface);
-        let increment = solver.solve(&system, &right)?;
-        (trial, evaluation) =
-            update(model, start, &trial, &increment, norm(&evaluation)).ok_or(StepFailure::Inverted(iteration + 1))?;
+        let increment = increment(model, &mut evaluation, solver)?;
+        (trial, evaluation) = update(model, start, &trial, &increment, norm(&evaluation))
+            .ok_or(StepFailure::Inverted(iteration + 1))?;
     }
     unreachable!("the last iteration returns")
+}
+
+/// The Newton increment; takes the system out of the evaluation.
+fn increment(
+    model: &Model,
+    evaluation: &mut Evaluation,
+    solver: &mut dyn LinearSolver,
+) -> Result<Vec<f64>, SolveError> {
+    let right: Vec<f64> = evaluation.residual.iter().map(|v| -v).collect();
+    let mut system = evaluation.system.take().expect("evaluated with tangent");
+    support_floating(model, evaluation, &mut system.interface);
+    solver.solve(&system, &right)
 }
 
 /// Adds the increment. A step along which the residual grows beyond [`GROWTH`] is halved a few times and the best length
@@ -131,16 +161,23 @@ fn norm(evaluation: &Evaluation) -> f64 {
     evaluation.residual.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-/// A body under force control that touches nothing has no stiffness against its load. A spring on its load equation lets
-/// it travel by one element length per iteration until it touches; it acts on the increment alone, never on the solution.
+/// A body held only by forces and contact has no stiffness against its load while it touches nothing, nor along the
+/// surface while nothing sticks. A spring on its load equations lets it travel by one element length per iteration until
+/// it is held; it acts on the increment alone, never on the solution.
 fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut crate::math::Triplets) {
     for (motion, unknown) in model.motions.iter().zip(&model.equations.of_motion) {
         let Some(e) = *unknown else { continue };
-        let touches = model.pairs.iter().zip(&evaluation.interfaces).any(|(pair, found)| {
+        let guided = model.motions.iter().any(|m| m.body == motion.body && matches!(m.control, Control::Displacement(_)));
+        let holds = |status: ContactStatus| match status {
+            ContactStatus::Open => false,
+            ContactStatus::Stick => true,
+            ContactStatus::Slip => guided,
+        };
+        let held = model.pairs.iter().zip(&evaluation.interfaces).any(|(pair, found)| {
             (pair.nonmortar.body == motion.body || pair.mortar.body == motion.body)
-                && found.sites.iter().any(|s| s.status != ContactStatus::Open)
+                && found.sites.iter().any(|s| holds(s.status))
         });
-        if !touches {
+        if !held {
             let load = evaluation.residual[e].abs();
             let floor = f64::EPSILON * model.modulus;
             entries.push((e, e, (load / model.element_size).max(floor)));

@@ -1,7 +1,7 @@
 //! First guess of a step: driven bodies move as rigid bodies, everything else as in the last step.
 
 use crate::geometry::Point;
-use crate::model::{Control, Evaluation, Model, State, Trend, evaluate};
+use crate::model::{Control, Model, State, Trend, evaluate};
 
 /// Translation of every body between two times: the mean increment of its prescribed components.
 fn rigid_shifts(model: &Model, from: f64, to: f64) -> Vec<Point> {
@@ -27,43 +27,49 @@ pub fn predict(model: &Model, start: &State, time: f64) -> State {
     trial
 }
 
-/// [`predict`] with deformation and multipliers continued as in the last step.
-fn extrapolate(model: &Model, start: &State, time: f64, trend: &Trend) -> State {
+/// [`predict`] with deformation and multipliers continued as lately: along the last rate, or along a parabola.
+fn extrapolate(model: &Model, start: &State, time: f64, trend: &Trend, parabola: bool) -> State {
     let mut trial = predict(model, start, time);
     let dt = time - start.time;
-    trial.u.iter_mut().zip(&trend.u).for_each(|(u, rate)| *u += rate * dt);
-    for (pair, [pressure, traction]) in trial.pairs.iter_mut().zip(&trend.multipliers) {
-        let values = pair.pressure.iter_mut().chain(&mut pair.traction);
-        values.zip(pressure.iter().chain(traction)).for_each(|(value, rate)| *value += rate * dt);
+    trial.flat_mut().zip(&trend.rate).for_each(|(value, rate)| *value += rate * dt);
+    if parabola {
+        let factor = 0.5 * dt * (dt + trend.dt);
+        trial.flat_mut().zip(&trend.change).for_each(|(value, change)| *value += change * factor);
     }
     trial.prescribe(model, time);
     trial
 }
 
-/// The better of the two guesses, judged by the residual; `None` where both turn a body inside out.
-pub fn first_guess(model: &Model, start: &State, time: f64) -> Option<State> {
-    let size = |evaluation: Evaluation| evaluation.residual.iter().map(|v| v * v).sum::<f64>();
-    let rigid = predict(model, start, time);
-    let Some(trend) = &start.trend else { return Some(rigid) };
-    let extrapolated = extrapolate(model, start, time, trend);
-    let [a, b] = [&rigid, &extrapolated].map(|trial| evaluate(model, start, trial, false).map(size));
-    match (a, b) {
-        (None, None) => None,
-        (Some(a), Some(b)) if a <= b => Some(rigid),
-        (Some(_), None) => Some(rigid),
-        _ => Some(extrapolated),
+/// Guesses for the end of a step, the one with the smallest residual first; those that turn a body inside out are left
+/// out.
+pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<State> {
+    let mut guesses = vec![predict(model, start, time)];
+    if let Some(trend) = &start.trend {
+        guesses.push(extrapolate(model, start, time, trend, false));
+        if !trend.change.is_empty() {
+            guesses.push(extrapolate(model, start, time, trend, true));
+        }
     }
+    let size = |trial: &State| {
+        evaluate(model, start, trial, false).map(|found| found.residual.iter().map(|v| v * v).sum::<f64>())
+    };
+    let mut judged: Vec<(f64, State)> =
+        guesses.into_iter().filter_map(|trial| size(&trial).map(|size| (size, trial))).collect();
+    judged.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    judged.into_iter().map(|(_, trial)| trial).collect()
 }
 
-/// Rates of a converged step, for the next one.
+/// The trend after a converged step, for the next one.
 pub fn trend(model: &Model, start: &State, end: &State) -> Trend {
-    let per_time = 1.0 / (end.time - start.time);
-    let mut u: Vec<Point> = end.u.iter().zip(&start.u).map(|(a, b)| a - b).collect();
-    for (body, shift) in model.bodies.iter().zip(rigid_shifts(model, start.time, end.time)) {
-        u[body.nodes()].iter_mut().for_each(|u| *u = (*u - shift) * per_time);
-    }
-    let rate = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * per_time).collect();
-    let pairs = end.pairs.iter().zip(&start.pairs);
-    let multipliers = pairs.map(|(a, b)| [rate(&a.pressure, &b.pressure), rate(&a.traction, &b.traction)]).collect();
-    Trend { u, multipliers }
+    let dt = end.time - start.time;
+    let moved = predict(model, start, end.time);
+    let rate: Vec<f64> = end.flat().zip(moved.flat()).map(|(a, b)| (a - b) / dt).collect();
+    let change = match &start.trend {
+        Some(before) => {
+            let per_time = 2.0 / (dt + before.dt);
+            rate.iter().zip(&before.rate).map(|(a, b)| (a - b) * per_time).collect()
+        }
+        None => vec![],
+    };
+    Trend { dt, rate, change }
 }
