@@ -262,7 +262,6 @@ fn holding_the_forces_changes_nothing() {
 }
 
 #[test]
-#[ignore = "sticking quadrature sites forget their stabilising slip (q^ - q)/r at the end of every step"]
 fn holding_the_forces_changes_nothing_at_quadrature_sites() {
     let found = creep(Sites::Quadrature);
     assert!(found < 1e-6, "{found:.1e}");

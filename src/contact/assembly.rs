@@ -4,7 +4,7 @@ use crate::geometry::Point;
 use crate::math::{Triplets, Vec2};
 
 use super::integration::QuadraturePoint;
-use super::interface::{ContactStatus, InterfaceForces, InterfaceTrial, SiteRecord};
+use super::interface::{ContactStatus, InterfaceForces, InterfaceTrial, SiteMemory, SiteRecord};
 use super::kinematics::{SLOTS, Slots};
 use super::mortar::SiteState;
 use super::point::{Curves, PointState, congruence};
@@ -238,9 +238,13 @@ impl Assembly<'_> {
     fn record(&self, out: &mut InterfaceForces) {
         for state in self.sites {
             let answer = &state.answer;
-            out.laws.extend_from_slice(&answer.variables);
+            out.memory.push(SiteMemory {
+                arc: state.arc,
+                deflection: answer.deflection,
+                variables: answer.variables.clone(),
+            });
             if answer.status != ContactStatus::Open {
-                out.dissipated += state.weight * answer.q * state.slip;
+                out.dissipated += state.weight * answer.q * (state.slip + state.old_deflection - answer.deflection);
             }
             out.sites.push(self.site_record(state));
         }
@@ -248,11 +252,9 @@ impl Assembly<'_> {
 
     fn site_record(&self, state: &SiteState) -> SiteRecord {
         let answer = &state.answer;
-        let (mut x, mut arc, mut total) = (Point::zeros(), 0.0, 0.0);
+        let mut x = Point::zeros();
         let (mut normal, mut tangent) = (Vec2::zeros(), Vec2::zeros());
         for &(i, c) in &state.site.group {
-            total += c;
-            arc += c * self.points[i].arc;
             if let Some(at) = &self.states[i] {
                 x += at.x * c;
                 normal += at.normal * c;
@@ -261,7 +263,7 @@ impl Assembly<'_> {
         }
         SiteRecord {
             x: if state.gap.is_nan() { Point::new(f64::NAN, f64::NAN) } else { x / state.weight },
-            arc: arc / total,
+            arc: state.arc,
             normal: normal.try_normalize(0.0).unwrap_or_default(),
             tangent: tangent.try_normalize(0.0).unwrap_or_default(),
             pressure: answer.p / state.stretch,

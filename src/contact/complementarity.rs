@@ -3,11 +3,15 @@
 //! Augmented values, projected (theory 2.3; Alart and Curnier, CMAME 92 (1991) 353):
 //!
 //! ```text
-//! p^ = max(0, p - r_N g)        q^ = clamp(q + r_T s, -b, +b),   b = law(p^, s)       set-valued law
-//!                               q^ = law(p^, s)                                       direct law
+//! p^ = max(0, p - r_N g)        q^ = clamp(q + r_T (s + e), -b, +b),   b = law(p^, s)       set-valued law
+//!                               q^ = law(p^, s)                                             direct law
 //! ```
 //!
-//! The conditions hold where `p^ = p` and `q^ = q`. Laws see true (Cauchy) stresses: with the boundary stretch `J`,
+//! At nodal sites the conditions hold where `p^ = p` and `q^ = q`. At quadrature sites `q` is the projection of the `q^`,
+//! and a sticking site is held by `s + e = (q^ - q)/r_T`: the deflection `e` accumulates over the steps, `e <- (q^ - q)/r_T`,
+//! so that the answer does not depend on how many steps a stick lasts. It is zero at nodal sites.
+//!
+//! Laws see true (Cauchy) stresses: with the boundary stretch `J`,
 //! `b = J law(p^/J, s)`, so `db/dp^ = B_p`, `db/dJ = B - (p^/J) B_p`, `db/ds = J B_s`; for Coulomb's law `db/dJ = 0`.
 //! Open sites carry no traction whatever the law says.
 
@@ -35,6 +39,8 @@ pub struct SiteInput<'a> {
     pub stretch: f64,
     /// False where no point of the site has a partner: the site is open.
     pub has_partner: bool,
+    /// Deflection at the start of the step.
+    pub deflection: f64,
     /// Time step.
     pub dt: f64,
     /// Position, for laws that vary in space.
@@ -64,6 +70,8 @@ pub struct SiteAnswer {
     pub dq_dstretch: f64,
     /// Open, stick or slip.
     pub status: ContactStatus,
+    /// Deflection at the end of the step.
+    pub deflection: f64,
     /// Internal variables at the end of the step.
     pub variables: Vec<f64>,
 }
@@ -82,6 +90,7 @@ pub fn complementarity(law: Option<&dyn FrictionLaw>, site: &SiteInput) -> SiteA
         dq_ds: 0.0,
         dq_dstretch: 0.0,
         status: if open { ContactStatus::Open } else { ContactStatus::Slip },
+        deflection: 0.0,
         variables: site.old.to_vec(),
     };
     if let Some(law) = law {
@@ -102,7 +111,7 @@ fn rub(law: &dyn FrictionLaw, site: &SiteInput, answer: &mut SiteAnswer) {
     let response = law.response(&at, site.old, &mut new);
     answer.variables.iter_mut().zip(&new).for_each(|(value, dual)| *value = derivatives(dual).0);
     let (value, slopes @ [d_pressure, d_slip]) = derivatives(&response.value());
-    let trial = site.q + site.r_tangential * site.slip;
+    let trial = site.q + site.r_tangential * (site.slip + site.deflection);
     match response {
         Response::Threshold(_) if value > 0.0 && trial.abs() <= site.stretch * value => {
             answer.q = trial;
@@ -115,6 +124,9 @@ fn rub(law: &dyn FrictionLaw, site: &SiteInput, answer: &mut SiteAnswer) {
             set_direct(answer, site, sign * value, [sign * d_pressure, sign * d_slip]);
         }
         Response::Traction(_) => set_direct(answer, site, value, slopes),
+    }
+    if matches!(response, Response::Threshold(_)) {
+        answer.deflection = (answer.q - site.q) / site.r_tangential;
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use serde::{Deserialize, Serialize};
+
 use crate::geometry::Point;
 use crate::math::{Triplets, Vec2};
 
@@ -62,13 +64,25 @@ pub struct Configuration<'a> {
     pub mortar: &'a [Point],
 }
 
+/// What a site remembers from one step to the next.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SiteMemory {
+    /// Reference arc length along the nonmortar edge: finds the site again where the sites move (segments).
+    pub arc: f64,
+    /// Slip that the site has made without friction work, `(q^ - q)/r_T`: zero at nodal sites; at quadrature sites the
+    /// small deflection by which the stabilisation lets a sticking site move, see [`super::complementarity()`].
+    pub deflection: f64,
+    /// Internal variables of the law.
+    pub variables: Vec<f64>,
+}
+
 /// The interface at the start of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct InterfaceStart<'a> {
     /// Positions at the start of the step.
     pub at: Configuration<'a>,
-    /// Internal variables of the law, site by site.
-    pub laws: &'a [f64],
+    /// Memory of the sites; empty before the first step.
+    pub sites: &'a [SiteMemory],
 }
 
 /// The interface tried as the end of a step.
@@ -125,13 +139,13 @@ pub struct InterfaceForces {
     pub tangent: Triplets,
     /// The sites.
     pub sites: Vec<SiteRecord>,
-    /// Internal variables at the end of the step.
-    pub laws: Vec<f64>,
+    /// Memory of the sites at the end of the step.
+    pub memory: Vec<SiteMemory>,
     /// Force on the nonmortar body from the pressure alone.
     pub normal_force: Vec2,
     /// Force on the nonmortar body from friction alone.
     pub friction_force: Vec2,
-    /// Work of friction over the step, `sum w q^ s`.
+    /// Work of friction over the step, `sum w q^ (s - change of the deflection)`: never negative for a set-valued law.
     pub dissipated: f64,
     /// Largest penetration at an integration point in contact.
     pub penetration: f64,
@@ -149,8 +163,6 @@ pub trait ContactDiscretization: Debug + Send + Sync {
     fn rubs(&self) -> bool;
     /// Augmentation `r = E/h` (stress/length) that scales the multiplier unknowns.
     fn augmentation(&self) -> f64;
-    /// Internal variables before the first step.
-    fn initial_laws(&self) -> Vec<f64>;
     /// Names of the internal variables of one site.
     fn variable_names(&self) -> Vec<String>;
     /// Forces and, where asked for, the tangent.

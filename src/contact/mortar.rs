@@ -21,7 +21,7 @@ use super::assembly::Assembly;
 use super::complementarity::{SiteAnswer, SiteInput, complementarity};
 use super::integration::{EdgeFunctions, QuadraturePoint, mortar_cuts};
 use super::interface::{
-    ContactDiscretization, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection, Sites,
+    ContactDiscretization, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection, SiteMemory, Sites,
 };
 use super::kinematics::Orientation;
 use super::point::{Curves, PointState};
@@ -59,7 +59,7 @@ pub struct Mortar {
     points: Vec<QuadraturePoint>,
     /// `E / (length of the span)` for each nonmortar span.
     stiffness: Vec<f64>,
-    /// `E / (mean length of the spans)`.
+    /// `E / (shortest span)`.
     augmentation: f64,
     reach: f64,
 }
@@ -77,6 +77,9 @@ pub(super) struct SiteState {
     pub site: Site,
     /// `sum_i c_ai` over the points that have a partner; over all points where none has.
     pub weight: f64,
+    /// Reference arc length.
+    pub arc: f64,
+    pub old_deflection: f64,
     pub gap: f64,
     pub slip: f64,
     pub stretch: f64,
@@ -103,13 +106,14 @@ impl Mortar {
         let mut lengths = vec![0.0; nonmortar.spans()];
         points.iter().for_each(|p| lengths[p.span] += p.weight);
         let total: f64 = lengths.iter().sum();
+        let shortest = lengths.iter().fold(f64::INFINITY, |m, h| m.min(*h));
         let orientation =
             Orientation { projection: numerics.projection, nonmortar: nonmortar.side, mortar: mortar.side };
         let variables = law.variables().iter().map(|v| v.initial).collect();
         Self {
             path_rule: gauss(mortar.basis.degree() + 2),
             stiffness: lengths.iter().map(|h| modulus / h).collect(),
-            augmentation: modulus * lengths.len() as f64 / total,
+            augmentation: modulus / shortest,
             reach: 0.5 * total,
             law: (!law.frictionless()).then_some(law),
             nonmortar,
@@ -131,13 +135,6 @@ impl Mortar {
     /// The law, where there is friction.
     pub fn law(&self) -> Option<&Arc<dyn FrictionLaw>> {
         self.law.as_ref()
-    }
-
-    fn site_count(&self) -> usize {
-        match self.numerics.sites {
-            Sites::Nodal => self.multipliers(),
-            Sites::Quadrature => self.points.len(),
-        }
     }
 
     fn sites(&self, points: &[QuadraturePoint]) -> Vec<Site> {
@@ -162,7 +159,7 @@ impl Mortar {
     fn evaluate_site(
         &self,
         site: Site,
-        index: usize,
+        (index, sites): (usize, usize),
         points: &[QuadraturePoint],
         states: &[Option<PointState>],
         (start, trial): (&InterfaceStart, &InterfaceTrial),
@@ -186,7 +183,8 @@ impl Mortar {
         let read = |values: &[f64]| site.reads.iter().map(|&(a, m)| m * values[a]).sum::<f64>();
         let (p, q) = (read(trial.pressure), if self.rubs() { read(trial.traction) } else { 0.0 });
         let r = [r * self.numerics.r, r * self.numerics.r_tangential];
-        let variables = self.variables.len();
+        let arc = site.group.iter().map(|&(i, c)| c / full * points[i].arc).sum();
+        let memory = recall(start.sites, index, sites, arc);
         let input = SiteInput {
             p,
             q,
@@ -198,12 +196,15 @@ impl Mortar {
             has_partner,
             dt: trial.dt,
             position: position.map(mean),
-            old: start.laws.get(index * variables..(index + 1) * variables).unwrap_or(&self.variables),
+            deflection: memory.map_or(0.0, |m| m.deflection),
+            old: memory.map_or(&self.variables, |m| &m.variables),
         };
         let answer = complementarity(self.law.as_deref(), &input);
         let none = if has_partner { 0.0 } else { f64::NAN };
         SiteState {
             weight: if has_partner { weight } else { full },
+            arc,
+            old_deflection: input.deflection,
             gap: input.gap + none,
             slip: input.slip + none,
             stretch: input.stretch,
@@ -214,6 +215,14 @@ impl Mortar {
             answer,
         }
     }
+}
+
+/// Memory of a site: by its number while there are as many sites as before, else of the nearest one along the edge.
+fn recall(memory: &[SiteMemory], index: usize, sites: usize, arc: f64) -> Option<&SiteMemory> {
+    if memory.len() == sites {
+        return memory.get(index);
+    }
+    memory.iter().min_by(|a, b| (a.arc - arc).abs().total_cmp(&(b.arc - arc).abs()))
 }
 
 impl ContactDiscretization for Mortar {
@@ -227,10 +236,6 @@ impl ContactDiscretization for Mortar {
 
     fn augmentation(&self) -> f64 {
         self.augmentation
-    }
-
-    fn initial_laws(&self) -> Vec<f64> {
-        self.variables.repeat(self.site_count())
     }
 
     fn variable_names(&self) -> Vec<String> {
@@ -259,11 +264,12 @@ impl ContactDiscretization for Mortar {
         let new = Target::new(&self.mortar, trial.at.mortar, projection, self.reach);
         let states: Vec<Option<PointState>> =
             points.iter().map(|p| curves.point(p, (&old, start), (&new, trial), tangent)).collect();
-        let sites: Vec<SiteState> = self
-            .sites(points)
+        let sites = self.sites(points);
+        let count = sites.len();
+        let sites: Vec<SiteState> = sites
             .into_iter()
             .enumerate()
-            .map(|(index, site)| self.evaluate_site(site, index, points, &states, (start, trial)))
+            .map(|(index, site)| self.evaluate_site(site, (index, count), points, &states, (start, trial)))
             .collect();
         let multipliers = self.multipliers();
         Assembly { curves, points, states: &states, sites: &sites, multipliers, rubs: self.rubs() }

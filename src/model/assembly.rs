@@ -72,7 +72,7 @@ fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State,
     let [old_mortar, mortar] = [start, trial].map(|s| place(&pair.mortar, s));
     let from = InterfaceStart {
         at: Configuration { nonmortar: &old_nonmortar, mortar: &old_mortar },
-        laws: &start.pairs[k].laws,
+        sites: &start.pairs[k].sites,
     };
     let to = InterfaceTrial {
         at: Configuration { nonmortar: &nonmortar, mortar: &mortar },

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::ContactDiscretization;
+use crate::contact::{ContactDiscretization, SiteMemory};
 use crate::geometry::Point;
 
 use super::record::motion_forces;
@@ -15,8 +15,8 @@ pub struct PairState {
     pub pressure: Vec<f64>,
     /// Traction multipliers; empty when nothing rubs.
     pub traction: Vec<f64>,
-    /// Internal variables of the law, site by site.
-    pub laws: Vec<f64>,
+    /// Memory of the sites; empty before the first step.
+    pub sites: Vec<SiteMemory>,
 }
 
 /// Work done so far, and the forces that continue it.
@@ -80,7 +80,7 @@ impl State {
             PairState {
                 pressure: vec![0.0; n],
                 traction: vec![0.0; if pair.contact.rubs() { n } else { 0 }],
-                laws: pair.contact.initial_laws(),
+                sites: vec![],
             }
         });
         let mut state = Self {

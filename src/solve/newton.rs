@@ -188,7 +188,7 @@ fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut crate:
 /// The trial state as the new committed one: internal variables, forces and work.
 fn commit(model: &Model, start: &State, mut trial: State, evaluation: &Evaluation) -> State {
     for (pair, found) in trial.pairs.iter_mut().zip(&evaluation.interfaces) {
-        pair.laws.clone_from(&found.laws);
+        pair.sites.clone_from(&found.memory);
         trial.ledger.dissipated += found.dissipated;
     }
     trial.trend = Some(trend(model, start, &trial));
