@@ -4,7 +4,8 @@ use std::path::Path;
 
 use asperity::contact::ContactDiscretization;
 use asperity::model::{Body, Control, Model, Motion, Pair};
-use asperity::scene::{Scene, build};
+use asperity::scene::{Scene, build, time_plan};
+use asperity::verify::step_warnings;
 
 use super::SceneArguments;
 use super::outcome::{Exit, Failure, say};
@@ -28,16 +29,18 @@ fn describe(scene: &Scene, model: &Model) -> String {
     let mut modelled: Vec<String> = model.bodies.iter().map(|body| body_line(scene, body)).collect();
     modelled.extend(model.pairs.iter().enumerate().map(|(k, pair)| pair_line(scene, model, k, pair)));
     modelled.extend(model.motions.iter().map(|motion| motion_line(model, motion)));
+    let warnings = step_warnings(model, &time_plan(scene));
     let section = |title: &str, lines: &[String]| -> String {
         let lines: String = lines.iter().map(|line| format!("  - {line}\n")).collect();
         format!("{title}\n{lines}")
     };
     format!(
-        "{}\n{}{}{}",
+        "{}\n{}{}{}{}",
         if scene.title.is_empty() { "(no title)" } else { &scene.title },
         section("modelled:", &modelled),
         section("left out, because:", &left_out(scene, model)),
         section("sizes:", &sizes(scene, model)),
+        if warnings.is_empty() { String::new() } else { section("warnings:", &warnings) },
     )
 }
 
@@ -65,7 +68,7 @@ fn pair_line(scene: &Scene, model: &Model, k: usize, pair: &Pair) -> String {
     let law = scene.contact.get(k).and_then(|contact| contact.law.get("type")?.as_str()).unwrap_or("?");
     let r = numerics.r * pair.contact.augmentation();
     format!(
-        "contact {k}: {} on {}, law {law}; {:?} sites, {:?} projection, {:?}-wise integration with {} points, r = {r:.3e}",
+        "contact {k}: {} on {}, law {law}; {:?} sites, {:?} projection, {:?}-wise integration with {} points, r = {r:.3e} at the shortest contact element",
         model.bodies[pair.nonmortar.body].name,
         model.bodies[pair.mortar.body].name,
         numerics.sites,
@@ -116,9 +119,10 @@ fn left_out(scene: &Scene, model: &Model) -> Vec<String> {
 
 fn sizes(scene: &Scene, model: &Model) -> Vec<String> {
     let multipliers = model.unknowns() - model.equations.count;
+    let element = if model.pairs.is_empty() { "mean element" } else { "shortest contact element" };
     vec![
         format!("{} unknowns: {} displacements, {multipliers} multipliers", model.unknowns(), model.equations.count),
         format!("{} nominal steps of {:e}", scene.time.steps, scene.time.end / scene.time.steps as f64),
-        format!("stress scale E = {:e}, element size h = {:.3e}", model.modulus, model.element_size),
+        format!("stress scale E = {:e}, {element} h = {:.3e}", model.modulus, model.element_size),
     ]
 }

@@ -15,8 +15,8 @@ use outcome::{Exit, Failure, report, say};
 
 const AFTER_HELP: &str = "\
 Examples:
-  asperity check examples/two-asperities.toml
-  asperity run examples/two-asperities.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
+  asperity check examples/single_asperity.toml
+  asperity run examples/single_asperity.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
   asperity laws coulomb
 
 Exit codes:

@@ -17,6 +17,8 @@ pub enum Exit {
     BadInput = 2,
     /// A step did not converge; results up to there are kept.
     NotConverged = 3,
+    /// Every step converged, but the result breaks a property it must have; it is kept.
+    AuditFailed = 4,
     /// Stopped by the user; results up to there are kept.
     Interrupted = 5,
 }
@@ -39,9 +41,25 @@ impl Failure {
         Self { exit: Exit::NotConverged, message: format!("error: {message}") }
     }
 
+    /// The computation is complete, but must not be trusted.
+    pub fn audit(message: impl Display) -> Self {
+        Self { exit: Exit::AuditFailed, message: format!("error: {message}") }
+    }
+
     /// The program or the machine is at fault.
     pub fn internal(message: impl Display) -> Self {
         Self { exit: Exit::Internal, message: format!("error: {message}") }
+    }
+
+    /// Exit code of the command.
+    pub fn exit(&self) -> Exit {
+        self.exit
+    }
+}
+
+impl Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
     }
 }
 
@@ -55,10 +73,15 @@ impl From<SceneError> for Failure {
 pub fn report(outcome: Result<Exit, Failure>) -> ExitCode {
     let exit = outcome.unwrap_or_else(|failure| {
         // nobody is left to be told if stderr is closed
-        let _ = writeln!(std::io::stderr(), "{}", failure.message);
-        failure.exit
+        let _ = writeln!(std::io::stderr(), "{failure}");
+        failure.exit()
     });
     ExitCode::from(exit as u8)
+}
+
+/// Prints a warning to stderr. A closed stderr must not stop a computation.
+pub fn warn(warning: impl Display) {
+    let _ = writeln!(std::io::stderr(), "warning: {warning}");
 }
 
 /// Writes to stdout. A reader that has seen enough (`asperity laws | head`) is no error.

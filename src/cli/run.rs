@@ -7,13 +7,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use asperity::model::Record;
 use asperity::output::RunFolder;
-use asperity::scene::{self, Scene};
+use asperity::scene::{self, RunReport, Scene};
 use asperity::solve::Status;
+use asperity::verify::{Finding, step_warnings};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::RunArguments;
 use super::check::load;
-use super::outcome::{Exit, Failure, say};
+use super::outcome::{Exit, Failure, say, warn};
 
 /// Computes a scene into a folder.
 pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
@@ -22,20 +23,30 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let folder = RunFolder::create(&out)
         .map_err(|error| Failure::input(format!("{error}\n  = argument: --out {}", out.display())))?;
     let interrupt = on_interrupt()?;
-    let mut progress = Progress::new(&scene, arguments.quiet);
-    let outcome = scene::run(&scene, &model, &folder, &interrupt, |record| progress.step(record));
-    progress.end();
-    let outcome = outcome.map_err(Failure::internal)?;
     if !arguments.quiet {
+        step_warnings(&model, &scene::time_plan(&scene)).iter().for_each(warn);
+    }
+    let mut progress = Progress::new(&scene, arguments.quiet);
+    let report = scene::run(&scene, &model, &folder, &interrupt, |record| progress.step(record));
+    progress.end();
+    let RunReport { outcome, findings } = report.map_err(Failure::internal)?;
+    if !arguments.quiet {
+        findings.iter().filter(|finding| finding.warns()).for_each(warn);
         let state = scene::status_name(&outcome.status);
         let (steps, iterations, cuts) = (outcome.steps, outcome.iterations, outcome.cuts);
         say(&format!("{state}: {steps} steps, {iterations} iterations, {cuts} cuts; results in {}\n", out.display()))?;
     }
-    conclude(&outcome.status, &out)
+    conclude(&outcome.status, &findings, &out)
 }
 
-fn conclude(status: &Status, out: &Path) -> Result<Exit, Failure> {
+fn conclude(status: &Status, findings: &[Finding], out: &Path) -> Result<Exit, Failure> {
+    let failed: String = findings.iter().filter(|f| f.failed()).map(|f| format!("\n  - {f}")).collect();
     match status {
+        Status::Done if !failed.is_empty() => Err(Failure::audit(format!(
+            "every step converged, but the result must not be trusted:{failed}\n  = help: results are kept in {}, all \
+             audits in its run.json; please report this with the scene",
+            out.display()
+        ))),
         Status::Done => Ok(Exit::Done),
         Status::Interrupted { .. } => Ok(Exit::Interrupted),
         Status::NotConverged { time, reason } => Err(Failure::not_converged(format!(
@@ -104,5 +115,38 @@ impl Progress {
         if let Self::Bar(bar) = self {
             bar.abandon();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use asperity::verify::{Audit, Expectations};
+
+    use super::*;
+
+    const EXPECTED: Expectations = Expectations {
+        friction: None,
+        dissipative: true,
+        single_drive: true,
+        element_size: 1.0,
+        negligible_force: 1e-9,
+    };
+
+    /// No built-in law breaks an audit, so the way to exit code 4 is tested on a planted record.
+    #[test]
+    fn failed_audit_is_exit_code_4_unless_the_run_ended_early() {
+        let mut audit = Audit::new(EXPECTED);
+        audit.take(&Record { step: 1, force_imbalance: 0.5, ..Record::default() });
+        let (findings, out) = (audit.findings(), Path::new("out/here"));
+        let failure = conclude(&Status::Done, &findings, out).unwrap_err();
+        assert_eq!(failure.exit(), Exit::AuditFailed);
+        let said = failure.to_string();
+        for part in ["interface_force: 5.00e-1 at step 1", "must not be trusted", "kept in out/here"] {
+            assert!(said.contains(part), "{said}");
+        }
+        let early = Status::NotConverged { time: 0.5, reason: "planted".into() };
+        assert_eq!(conclude(&early, &findings, out).unwrap_err().exit(), Exit::NotConverged);
+        assert_eq!(conclude(&Status::Interrupted { time: 0.5 }, &findings, out).unwrap(), Exit::Interrupted);
+        assert_eq!(conclude(&Status::Done, &[], out).unwrap(), Exit::Done);
     }
 }

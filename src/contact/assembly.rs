@@ -4,10 +4,10 @@ use crate::geometry::Point;
 use crate::math::{Triplets, Vec2};
 
 use super::integration::QuadraturePoint;
-use super::interface::{ContactStatus, InterfaceForces, InterfaceTrial, SiteMemory, SiteRecord};
+use super::interface::{ContactStatus, InterfaceForces, InterfaceTrial};
 use super::kinematics::{SLOTS, Slots};
-use super::mortar::SiteState;
 use super::point::{Curves, PointState, congruence};
+use super::sites::SiteState;
 
 /// Everything known about a pair at a trial state.
 pub(super) struct Assembly<'a> {
@@ -237,43 +237,9 @@ impl Assembly<'_> {
 
     fn record(&self, out: &mut InterfaceForces) {
         for state in self.sites {
-            let answer = &state.answer;
-            out.memory.push(SiteMemory {
-                arc: state.arc,
-                deflection: answer.deflection,
-                variables: answer.variables.clone(),
-            });
-            if answer.status != ContactStatus::Open {
-                out.dissipated += state.weight * answer.q * (state.slip + state.old_deflection - answer.deflection);
-            }
-            out.sites.push(self.site_record(state));
-        }
-    }
-
-    fn site_record(&self, state: &SiteState) -> SiteRecord {
-        let answer = &state.answer;
-        let mut x = Point::zeros();
-        let (mut normal, mut tangent) = (Vec2::zeros(), Vec2::zeros());
-        for &(i, c) in &state.site.group {
-            if let Some(at) = &self.states[i] {
-                x += at.x * c;
-                normal += at.normal * c;
-                tangent += at.tangent * c;
-            }
-        }
-        SiteRecord {
-            x: if state.gap.is_nan() { Point::new(f64::NAN, f64::NAN) } else { x / state.weight },
-            arc: state.arc,
-            normal: normal.try_normalize(0.0).unwrap_or_default(),
-            tangent: tangent.try_normalize(0.0).unwrap_or_default(),
-            pressure: answer.p / state.stretch,
-            traction: answer.q / state.stretch,
-            gap: state.gap,
-            slip: state.slip,
-            status: answer.status,
-            weight: state.weight,
-            stretch: state.stretch,
-            variables: answer.variables.clone(),
+            out.memory.push(state.memory());
+            out.dissipated += state.dissipated();
+            out.sites.push(state.record(self.states));
         }
     }
 }

@@ -72,6 +72,8 @@ pub struct SiteMemory {
     /// Slip that the site has made without friction work, `(q^ - q)/r_T`: zero at nodal sites; at quadrature sites the
     /// small deflection by which the stabilisation lets a sticking site move, see [`super::complementarity()`].
     pub deflection: f64,
+    /// Projected traction `q^` (nominal).
+    pub traction: f64,
     /// Internal variables of the law.
     pub variables: Vec<f64>,
 }
@@ -145,7 +147,8 @@ pub struct InterfaceForces {
     pub normal_force: Vec2,
     /// Force on the nonmortar body from friction alone.
     pub friction_force: Vec2,
-    /// Work of friction over the step, `sum w q^ (s - change of the deflection)`: never negative for a set-valued law.
+    /// Work of friction over the step, `sum w q^ (s - change of the deflection)` with the mean of `q^` over the step
+    /// (trapezoidal rule, second order; the final value where `q^` changes its sign): never negative for a set-valued law.
     pub dissipated: f64,
     /// Largest penetration at an integration point in contact.
     pub penetration: f64,

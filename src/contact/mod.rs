@@ -8,6 +8,7 @@ mod kinematics;
 mod mortar;
 mod point;
 mod projection;
+mod sites;
 mod slip;
 
 pub use complementarity::{SiteAnswer, SiteInput, complementarity};

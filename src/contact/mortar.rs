@@ -18,13 +18,14 @@ use crate::geometry::{Basis, Curve};
 use crate::math::{GaussRule, gauss};
 
 use super::assembly::Assembly;
-use super::complementarity::{SiteAnswer, SiteInput, complementarity};
+use super::complementarity::{SiteInput, complementarity};
 use super::integration::{EdgeFunctions, QuadraturePoint, mortar_cuts};
 use super::interface::{
-    ContactDiscretization, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection, SiteMemory, Sites,
+    ContactDiscretization, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection, Sites,
 };
 use super::kinematics::Orientation;
 use super::point::{Curves, PointState};
+use super::sites::{Site, SiteState, group, recall};
 use super::projection::Target;
 
 /// Numerical choices of a pair, all resolved.
@@ -62,31 +63,6 @@ pub struct Mortar {
     /// `E / (shortest span)`.
     augmentation: f64,
     reach: f64,
-}
-
-/// A group of quadrature points at which the conditions hold, and the multipliers it reads.
-pub(super) struct Site {
-    /// `(quadrature point, c_ai)`.
-    pub group: Vec<(usize, f64)>,
-    /// `(multiplier, M_aA)`.
-    pub reads: Vec<(usize, f64)>,
-}
-
-/// A site with its group evaluated.
-pub(super) struct SiteState {
-    pub site: Site,
-    /// `sum_i c_ai` over the points that have a partner; over all points where none has.
-    pub weight: f64,
-    /// Reference arc length.
-    pub arc: f64,
-    pub old_deflection: f64,
-    pub gap: f64,
-    pub slip: f64,
-    pub stretch: f64,
-    pub p: f64,
-    pub q: f64,
-    pub r: [f64; 2],
-    pub answer: SiteAnswer,
 }
 
 impl Mortar {
@@ -137,25 +113,6 @@ impl Mortar {
         self.law.as_ref()
     }
 
-    fn sites(&self, points: &[QuadraturePoint]) -> Vec<Site> {
-        let reads = |p: &QuadraturePoint| {
-            (0..p.multiplier.count).map(|i| (p.multiplier.first + i, p.multiplier.d[0][i])).collect::<Vec<_>>()
-        };
-        match self.numerics.sites {
-            Sites::Quadrature => {
-                points.iter().enumerate().map(|(i, p)| Site { group: vec![(i, p.weight)], reads: reads(p) }).collect()
-            }
-            Sites::Nodal => {
-                let mut groups = vec![Vec::new(); self.multipliers()];
-                for (i, p) in points.iter().enumerate() {
-                    reads(p).into_iter().for_each(|(a, value)| groups[a].push((i, p.weight * value)));
-                }
-                let nodal = |(a, group)| Site { group, reads: vec![(a, 1.0)] };
-                groups.into_iter().enumerate().map(nodal).collect()
-            }
-        }
-    }
-
     fn evaluate_site(
         &self,
         site: Site,
@@ -204,7 +161,7 @@ impl Mortar {
         SiteState {
             weight: if has_partner { weight } else { full },
             arc,
-            old_deflection: input.deflection,
+            old: memory.map_or([0.0; 2], |m| [m.deflection, m.traction]),
             gap: input.gap + none,
             slip: input.slip + none,
             stretch: input.stretch,
@@ -215,14 +172,6 @@ impl Mortar {
             answer,
         }
     }
-}
-
-/// Memory of a site: by its number while there are as many sites as before, else of the nearest one along the edge.
-fn recall(memory: &[SiteMemory], index: usize, sites: usize, arc: f64) -> Option<&SiteMemory> {
-    if memory.len() == sites {
-        return memory.get(index);
-    }
-    memory.iter().min_by(|a, b| (a.arc - arc).abs().total_cmp(&(b.arc - arc).abs()))
 }
 
 impl ContactDiscretization for Mortar {
@@ -264,7 +213,7 @@ impl ContactDiscretization for Mortar {
         let new = Target::new(&self.mortar, trial.at.mortar, projection, self.reach);
         let states: Vec<Option<PointState>> =
             points.iter().map(|p| curves.point(p, (&old, start), (&new, trial), tangent)).collect();
-        let sites = self.sites(points);
+        let sites = group(points, self.numerics.sites, self.multipliers());
         let count = sites.len();
         let sites: Vec<SiteState> = sites
             .into_iter()

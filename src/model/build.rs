@@ -56,7 +56,8 @@ pub struct PairSpec {
     pub sites: Option<Sites>,
     /// Projection; default closest point, ray where the mortar curve has corners.
     pub projection: Option<Projection>,
-    /// Integration; default element by element.
+    /// Integration; default element by element, segments where a mortar curve of degree 2 or more has corners (element-wise
+    /// points then leave an error of several percent that does not fall with refinement).
     pub integration: Option<Integration>,
     /// Gauss points per element or segment; default degree + 1, and 3 for degree 1.
     pub points: Option<usize>,
@@ -203,12 +204,16 @@ impl Builder {
 
 /// Fills in the choices that the user left open.
 fn resolve(spec: &PairSpec, edge: &Curve, target: &Curve) -> Numerics {
-    let default = if has_corners(target) { Projection::Ray } else { Projection::Closest };
+    let (projection, integration) = match (has_corners(target), target.basis.degree()) {
+        (false, _) => (Projection::Closest, Integration::Element),
+        (true, 1) => (Projection::Ray, Integration::Element),
+        (true, _) => (Projection::Ray, Integration::Segment),
+    };
     let r = spec.r.unwrap_or(1.0);
     Numerics {
         sites: spec.sites.unwrap_or(Sites::Quadrature),
-        projection: spec.projection.unwrap_or(default),
-        integration: spec.integration.unwrap_or(Integration::Element),
+        projection: spec.projection.unwrap_or(projection),
+        integration: spec.integration.unwrap_or(integration),
         points: spec.points.unwrap_or((edge.basis.degree() + 1).max(3)),
         r,
         r_tangential: spec.r_tangential.unwrap_or(r),

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::issue::{Issue, KeyPath, SceneError};
+use super::issue::{Issue, KeyPath, SceneError, listed};
 use super::motion::{Course, Motion};
-use super::numerics::{Integration, Projection, Sites};
+use super::numerics::{Integration, Projection, Sites, stable_degrees};
 use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
 use crate::contact;
@@ -191,9 +191,17 @@ fn multiplier(contact: &ContactSpec, bodies: &Bodies, key: KeyPath) -> Result<Op
     if degree == highest {
         return Ok(None);
     }
-    let issue = |message| Issue::value(key.clone(), message).allowed(format!("0 to {highest}, the degree of the edge"));
+    let stable = stable_degrees(&*edge);
+    let allowed = listed(&stable.iter().map(usize::to_string).collect::<Vec<_>>());
+    let issue = |message| Issue::value(key.clone(), message).allowed(&allowed);
     if degree > highest {
-        return Err(issue(format!("multipliers of degree {degree} on an edge of degree {highest}")));
+        return Err(issue(format!("multipliers of degree {degree}: the edge can carry degrees 0 to {highest}")));
+    }
+    if !stable.contains(&degree) {
+        return Err(issue(format!(
+            "multipliers of degree {degree} on an edge of degree {highest}: the pressure of this pair oscillates, their \
+             degrees must differ by an even number"
+        )));
     }
     let spline = BSpline::from_breaks(degree, edge.breaks(), |_| 1);
     Ok(Some(Arc::new(spline.map_err(|error| issue(error.to_string()))?)))

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Basis;
+
 /// How a contact is discretized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -24,7 +26,8 @@ pub struct Numerics {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub r_tangential: Option<f64>,
-    /// Degree of the multipliers; that of the nonmortar edge if left out.
+    /// Degree of the multipliers: that of the nonmortar edge (if left out), or lower by an even number. On quadratic
+    /// Lagrange elements also 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 8))]
     pub multiplier_degree: Option<usize>,
@@ -74,4 +77,15 @@ pub enum Integration {
     Element,
     /// Gauss points on segments between the ends of nonmortar and projected mortar elements: passes the patch test exactly.
     Segment,
+}
+
+/// Degrees of multipliers on the elements of `edge` that do not let the pressure oscillate, highest first.
+///
+/// Splines of degree `p` carry multipliers of degree `p`, `p - 2`, ...; with `p - 1` the pair is unstable (Brivadis, Buffa,
+/// Wohlmuth, Wunderlich, CMAME 284 (2015) 292; measured on Hertz: ten times the error of degree `p`). Quadratic Lagrange
+/// elements have twice as many functions as linear multipliers, so those are stable (Puso, Laursen, Solberg 2008).
+pub(super) fn stable_degrees(edge: &dyn Basis) -> Vec<usize> {
+    let highest = edge.degree();
+    let quadratic_elements = edge.name() == "lagrange" && highest == 2;
+    (0..=highest).rev().filter(|degree| (highest - degree).is_multiple_of(2) || quadratic_elements).collect()
 }

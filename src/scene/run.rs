@@ -10,51 +10,75 @@ use crate::math::SparseLu;
 use crate::model::{Model, Pair, Record, State};
 use crate::output::{OutputError, RunFolder};
 use crate::solve::{Control, Outcome, Status, march};
+use crate::verify::{Audit, Expectations, Finding, step_warnings};
 
 use super::recorder::Recorder;
 use super::spec::Scene;
+
+/// How a run went.
+#[derive(Debug)]
+pub struct RunReport {
+    /// How the march ended.
+    pub outcome: Outcome,
+    /// Audits of all records, also of a march that ended early.
+    pub findings: Vec<Finding>,
+}
+
+/// The nominal steps of a scene.
+pub fn time_plan(scene: &Scene) -> Control {
+    Control { end: scene.time.end, steps: scene.time.steps, max_cuts: scene.time.max_cuts }
+}
 
 /// Computes a scene and writes everything into `folder`; `watch` sees each nominal step as it is reached. Whatever the
 /// outcome, all steps before it are on disk. Setting `interrupt` stops at the next iteration.
 ///
 /// # Errors
-/// A file that cannot be written; how the computation went is told by the [`Outcome`].
+/// A file that cannot be written; how the computation went is told by the [`RunReport`].
 pub fn run(
     scene: &Scene,
     model: &Model,
     folder: &RunFolder,
     interrupt: &AtomicBool,
     mut watch: impl FnMut(&Record),
-) -> Result<Outcome, OutputError> {
+) -> Result<RunReport, OutputError> {
     let clock = Instant::now();
-    folder.write_run(&summary(scene, model, json!({ "status": "running" })))?;
+    let plan = time_plan(scene);
+    let mut warnings = step_warnings(model, &plan);
+    folder.write_run(&summary(scene, model, &warnings, json!({ "status": "running" })))?;
     let mut recorder = Recorder::new(scene, model, folder)?;
     let state = State::initial(model);
     recorder.start(&state)?;
-    let control = Control { end: scene.time.end, steps: scene.time.steps, max_cuts: scene.time.max_cuts };
-    let mut worst = Worst::default();
-    let outcome = march(model, state, &control, &mut SparseLu::default(), interrupt, |report| {
+    let mut audit = Audit::new(Expectations::of(model));
+    let mut reached = 0;
+    let outcome = march(model, state, &plan, &mut SparseLu::default(), interrupt, |report| {
         recorder.step(&report)?;
-        worst.take(&report.record);
+        audit.take(&report.record);
+        reached = report.record.step;
         watch(&report.record);
         Ok::<(), OutputError>(())
     })?;
     recorder.finish(scene)?;
-    let result = conclusion(&outcome, &worst, clock.elapsed().as_secs_f64());
-    folder.write_run(&summary(scene, model, result))?;
-    Ok(outcome)
+    let report = RunReport { outcome, findings: audit.findings() };
+    warnings.extend(report.findings.iter().filter(|finding| finding.warns()).map(Finding::to_string));
+    let result = conclusion(&report, reached, clock.elapsed().as_secs_f64());
+    folder.write_run(&summary(scene, model, &warnings, result))?;
+    Ok(report)
 }
 
-fn conclusion(outcome: &Outcome, worst: &Worst, wall_s: f64) -> Value {
+fn conclusion(report: &RunReport, reached: usize, wall_s: f64) -> Value {
+    let outcome = &report.outcome;
     json!({
         "status": status_name(&outcome.status),
         "reason": reason(&outcome.status),
         "time_reached": outcome.state.time,
         "counters": {
-            "nominal_steps": worst.steps, "steps": outcome.steps, "cuts": outcome.cuts,
+            "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": outcome.factorisations,
         },
-        "audit": worst.to_json(),
+        "audit": {
+            "passed": !report.findings.iter().any(Finding::failed),
+            "checks": report.findings,
+        },
         "wall_s": wall_s,
     })
 }
@@ -75,11 +99,12 @@ fn reason(status: &Status) -> Option<&str> {
     }
 }
 
-fn summary(scene: &Scene, model: &Model, result: Value) -> Value {
+fn summary(scene: &Scene, model: &Model, warnings: &[String], result: Value) -> Value {
     json!({
         "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
         "scene": scene,
         "model": sizes(model),
+        "warnings": warnings,
         "result": result,
     })
 }
@@ -108,35 +133,4 @@ fn pair(pair: &Pair) -> Value {
         "r": numerics.r * pair.contact.augmentation(),
         "r_tangential": numerics.r_tangential * pair.contact.augmentation(),
     })
-}
-
-/// Largest violations of balance over all steps.
-#[derive(Default)]
-struct Worst {
-    steps: usize,
-    force_imbalance: f64,
-    moment_imbalance: f64,
-    reaction_mismatch: f64,
-    largest_force: f64,
-}
-
-impl Worst {
-    fn take(&mut self, record: &Record) {
-        self.steps = record.step;
-        self.force_imbalance = self.force_imbalance.max(record.force_imbalance);
-        self.moment_imbalance = self.moment_imbalance.max(record.moment_imbalance);
-        for (top, base) in record.force.iter().zip(record.reaction_base) {
-            self.reaction_mismatch = self.reaction_mismatch.max((top - base).abs());
-            self.largest_force = self.largest_force.max(top.abs());
-        }
-    }
-
-    fn to_json(&self) -> Value {
-        let relative = if self.largest_force > 0.0 { self.reaction_mismatch / self.largest_force } else { 0.0 };
-        json!({
-            "interface_force_imbalance": self.force_imbalance,
-            "interface_moment_imbalance": self.moment_imbalance,
-            "driven_minus_base_reaction": relative,
-        })
-    }
 }

@@ -1,1 +1,11 @@
-//! Independent checks of converged states.
+//! Independent checks: of a time plan before it is run, of records once they are there.
+
+mod audit;
+mod expectations;
+mod finding;
+mod guard;
+
+pub use audit::Audit;
+pub use expectations::Expectations;
+pub use finding::{Finding, Severity};
+pub use guard::step_warnings;

@@ -18,7 +18,7 @@ pub struct Axis {
 impl Axis {
     /// Axis over exactly `[min, max]` with about `count` round ticks.
     pub fn new([min, max]: [f64; 2], count: usize) -> Self {
-        let step = round_step((max - min) / count.max(1) as f64);
+        let step = tick_step((max - min) / count.max(1) as f64);
         let (first, last) = ((min / step - 1e-9).ceil() as i64, (max / step + 1e-9).floor() as i64);
         let ticks: Vec<f64> = (first..=last).map(|k| k as f64 * step).collect();
         let largest = ticks.iter().fold(0.0_f64, |largest, tick| largest.max(tick.abs()));
@@ -38,6 +38,15 @@ impl Axis {
     pub fn power(&self) -> String {
         if self.exponent == 0 { String::new() } else { format!("×10^{{{}}}", label(f64::from(self.exponent), 0)) }
     }
+}
+
+/// 1, 2 or 5 times a power of ten, nearest by ratio.
+fn tick_step(raw: f64) -> f64 {
+    let above = round_step(raw);
+    // 5 follows 2 by a factor of 2.5, all others follow by 2.
+    let leading = above / 10.0_f64.powf((above * (1.0 + 1e-9)).log10().floor());
+    let below = above / if (leading - 5.0).abs() < 0.1 { 2.5 } else { 2.0 };
+    if raw * raw < above * below { below } else { above }
 }
 
 /// 1, 2 or 5 times a power of ten, nearest above.
@@ -89,7 +98,7 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_labels_short() {
-        let axis = Axis::new([-0.013, 0.052], 5);
+        let axis = Axis::new([-0.013, 0.052], 4);
         assert_eq!(axis.labels, ["0.00", "0.02", "0.04"]);
         let axis = Axis::new([0.0, 3.8], 5);
         assert_eq!(axis.labels, ["0", "1", "2", "3"]);

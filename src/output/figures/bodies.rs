@@ -19,6 +19,9 @@ pub const LEVELS: usize = 40;
 /// Lengths of the longest pressure ordinate and of the longest arrow as shares of the panel height.
 const PRESSURE_SHARE: f64 = 0.16;
 const FORCE_SHARE: f64 = 0.4;
+/// A contact that stays within this share of the bodies is shown with surroundings of that many times its size each way.
+const SMALL_CONTACT: f64 = 0.06;
+const SURROUNDINGS: f64 = 3.0;
 
 /// One panel, sampled.
 #[derive(Clone, Debug)]
@@ -89,14 +92,35 @@ pub fn svg(frames: &[Frame], units: &UnitLabels) -> Option<String> {
         let inset = left + 0.5 * (panel_width - scale * bounds.width());
         let view = View { origin: [inset, top + panel_height], corner: [bounds.left, bounds.top], scale };
         canvas.text([left, top - 2.0], &frame.title, Anchor::Start);
-        frame.draw(&mut canvas, &view, &scales);
+        let panel = Rect { left: inset, top, right: inset + scale * bounds.width(), bottom: top + panel_height };
+        canvas.clipped(panel, |canvas| frame.draw(canvas, &view, &scales));
     }
     keys::draw(&mut canvas, bottom + 8.0, scale, &scales, units);
     Some(canvas.finish())
 }
 
-/// Smallest box (y upwards: `top` is the smallest y) around all frames, with a margin.
+/// The part of the plane that is shown (y upwards: `top` is the smallest y): the bodies, or the surroundings of a contact
+/// that would hardly be seen on them.
 fn bounds(frames: &[Frame]) -> Option<Rect> {
+    let whole = extent(frames)?;
+    let touching = || frames.iter().flat_map(|frame| &frame.interface).filter(|row| row.pressure > 0.0);
+    let [left, right] = super::axis::range(touching().map(|row| row.x), 0.0);
+    let [top, bottom] = super::axis::range(touching().map(|row| row.y), 0.0);
+    let size = (right - left).max(bottom - top);
+    if touching().next().is_none() || size > SMALL_CONTACT * whole.width().max(whole.height()) {
+        return Some(whole);
+    }
+    let (x, y, reach) = (0.5 * (left + right), 0.5 * (top + bottom), SURROUNDINGS * size);
+    Some(Rect {
+        left: whole.left.max(x - reach),
+        right: whole.right.min(x + reach),
+        top: whole.top.max(y - 0.75 * reach),
+        bottom: whole.bottom.min(y + 0.75 * reach),
+    })
+}
+
+/// Smallest box around all frames, with a margin.
+fn extent(frames: &[Frame]) -> Option<Rect> {
     let points = || frames.iter().flat_map(|frame| &frame.bodies).flat_map(Sampled::points);
     points().next()?;
     let [left, right] = super::axis::range(points().map(|p| p[0]), 0.01);

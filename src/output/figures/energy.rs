@@ -21,7 +21,7 @@ pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> Stri
     ];
     let open = curve(&|record| record.external_work - record.strain_energy - record.dissipated);
     let charts = vec![
-        chart(units.axis("energy per width", Quantity::Energy), 104.0, parts),
+        chart(units.axis("energy per depth", Quantity::Energy), 104.0, parts),
         chart("*W* − *U* − *D*".into(), 44.0, vec![Series { width: 1.0, ..Series::new("", INK, open) }]),
     ];
     Column { marks: marks(&x, instants), x_range: x.range(), x_label: x.label, charts, ..Column::default() }.draw()

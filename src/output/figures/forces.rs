@@ -18,7 +18,7 @@ pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> Stri
         vec![Series::new("*F*_y", BLUE, component(1)), Series::new("*F*_x", VERMILLION, component(0)).dashed("5 1.6")];
     let values = series.iter().flat_map(|series| &series.points).map(|point| point[1]).chain([0.0]);
     let chart = Chart {
-        y_label: units.axis("force per width *F*", Quantity::Force),
+        y_label: units.axis("force per depth *F*", Quantity::Force),
         y_range: range(values, 0.06),
         height: 128.0,
         series,

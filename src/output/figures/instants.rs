@@ -8,6 +8,8 @@ pub const CONTACT_THRESHOLD: f64 = 0.02;
 const MOST: usize = 6;
 /// Fewest instants, if the history has that many rows in contact.
 const FEWEST: usize = 4;
+/// A horizontal force below this share of the largest resultant is round-off, or as good as.
+const FELT: f64 = 1e-6;
 
 /// A row of the history with the reason it was chosen.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,12 +18,12 @@ pub struct Instant {
     pub index: usize,
     /// Panel letter: a, b, c ... in the order of the history.
     pub letter: char,
-    /// Markup that says what is special, e.g. `max *F*_x`; may be empty.
+    /// Markup that says what is special, e.g. `max *F*_x`, or which step it is.
     pub label: String,
 }
 
 /// First contact, largest Fx, apex, largest Fy, smallest Fx and last contact, as far as they exist and differ; filled up
-/// with evenly spaced instants to at least four. Only converged rows are chosen; empty without contact.
+/// with evenly spaced instants to four or six, so that no panel stays empty. Only converged rows are chosen; empty without contact.
 pub fn choose(records: &[Record]) -> Vec<Instant> {
     let contact = in_contact(records);
     let mut chosen: Vec<(usize, &str)> = Vec::new();
@@ -38,7 +40,11 @@ pub fn choose(records: &[Record]) -> Vec<Instant> {
     chosen.sort_unstable_by_key(|(position, _)| *position);
     let lettered = chosen.into_iter().zip('a'..='z');
     lettered
-        .map(|((position, label), letter)| Instant { index: contact[position], letter, label: label.into() })
+        .map(|((position, label), letter)| {
+            let index = contact[position];
+            let label = if label.is_empty() { format!("step {}", records[index].step) } else { label.into() };
+            Instant { index, letter, label }
+        })
         .collect()
 }
 
@@ -58,10 +64,12 @@ fn special<'a>(records: &[Record], contact: &[usize]) -> Vec<(usize, &'a str)> {
     let fy = |position: usize| records[contact[position]].force[1];
     let best = |value: &dyn Fn(usize) -> f64| (0..=last).max_by(|a, b| value(*a).total_cmp(&value(*b)));
     let mut found: Vec<(usize, &str)> = Vec::new();
-    found.extend(best(&fx).map(|k| (k, "max *F*_x")));
+    let largest = (0..=last).map(|k| fx(k).hypot(fy(k))).fold(0.0, f64::max);
+    let felt = |k: &usize| fx(*k).abs() > FELT * largest;
+    found.extend(best(&fx).filter(felt).map(|k| (k, "max *F*_x")));
     found.extend(best(&fy).map(|k| (k, "max *F*_y")));
     found.extend(apex(records, contact).map(|k| (k, "apex")));
-    found.extend(best(&|k| -fx(k)).filter(|k| fx(*k) < 0.0).map(|k| (k, "min *F*_x")));
+    found.extend(best(&|k| -fx(k)).filter(|k| fx(*k) < 0.0 && felt(k)).map(|k| (k, "min *F*_x")));
     found.extend([(0, "first contact"), (last, "last contact")]);
     found
 }
@@ -77,9 +85,10 @@ fn apex(records: &[Record], contact: &[usize]) -> Option<usize> {
     (before..=after).min_by(|a, b| angle(*a).abs().total_cmp(&angle(*b).abs()))
 }
 
-/// Adds the middle of the widest gap until there are enough.
+/// Adds the middle of the widest gap until the panels of the figure are full.
 fn fill(chosen: &mut Vec<(usize, &str)>, available: usize) {
-    while chosen.len() < FEWEST.min(available) {
+    let wanted = if chosen.len() > FEWEST { MOST } else { FEWEST };
+    while chosen.len() < wanted.min(available) {
         chosen.sort_unstable_by_key(|(position, _)| *position);
         let widest = chosen.windows(2).max_by_key(|pair| pair[1].0 - pair[0].0);
         let Some([a, b]) = widest.map(|pair| [pair[0].0, pair[1].0]).filter(|[a, b]| b - a > 1) else { return };

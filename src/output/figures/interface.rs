@@ -1,4 +1,4 @@
-//! Pressure and tangential traction along one interface at the chosen instants.
+//! Pressure and, unless frictionless, tangential traction along one interface at the chosen instants.
 
 use super::axis::range;
 use super::chart::{Chart, Column, Key, Series};
@@ -43,10 +43,10 @@ fn svg(
         });
         chart(label, height, series.collect())
     };
-    let charts = vec![
-        panel(units.axis("pressure *p*", Quantity::Stress), 88.0, |row| row.pressure, true),
-        panel(units.axis("traction *q*", Quantity::Stress), 66.0, |row| row.traction, false),
-    ];
+    let mut charts = vec![panel(units.axis("pressure *p*", Quantity::Stress), 88.0, |row| row.pressure, true)];
+    if profiles.iter().flatten().any(|row| row.traction != 0.0) {
+        charts.push(panel(units.axis("traction *q*", Quantity::Stress), 66.0, |row| row.traction, false));
+    }
     let x_label = units.axis("arc length along the interface", Quantity::Length);
     Some(Column { x_label, x_range, charts, keys: keys(instants), labels_repeat_keys: true, marks: Vec::new() }.draw())
 }

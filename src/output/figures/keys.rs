@@ -76,7 +76,7 @@ fn colour_bar(canvas: &mut Canvas, bar: Rect, scales: &Scales, units: &UnitLabel
         );
     }
     canvas.stroke_path(&rectangle(bar.left, bar.right), Stroke::solid(INK, 0.4));
-    let axis = Axis::new([0.0, scales.stress], 5);
+    let axis = Axis::new([0.0, scales.stress], 3);
     for (tick, name) in axis.ticks.iter().zip(&axis.labels) {
         let x = bar.left + axis.share(*tick) * bar.width();
         canvas.polyline(&[[x, bar.bottom], [x, bar.bottom + 2.0]], Stroke::solid(INK, 0.4));

@@ -123,8 +123,9 @@ struct Abscissa {
 }
 
 impl Abscissa {
+    /// From the start of the analysis, which has no row, to the last row.
     fn range(&self) -> [f64; 2] {
-        axis::range(self.values.iter().copied(), 0.0)
+        axis::range(self.values.iter().copied().chain([0.0]), 0.0)
     }
 }
 

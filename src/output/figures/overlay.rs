@@ -34,6 +34,9 @@ pub fn hatched(canvas: &mut Canvas, base: &[[f64; 2]], tips: &[[f64; 2]]) {
 }
 
 fn tip(row: &InterfaceRow, [x, y]: [f64; 2], scale: f64) -> [f64; 2] {
+    if row.pressure <= 0.0 {
+        return [x, y]; // a row without a partner has no normal
+    }
     [x + scale * row.pressure * row.normal[0], y - scale * row.pressure * row.normal[1]]
 }
 
@@ -49,12 +52,14 @@ fn contact_runs(rows: &[InterfaceRow]) -> Vec<Vec<&InterfaceRow>> {
 /// Force of the interface on the driven body, drawn from the centre of pressure, `scale` points per force.
 pub fn resultant(canvas: &mut Canvas, view: &View, record: &Record, rows: &[InterfaceRow], scale: f64) {
     let load = |row: &InterfaceRow| row.weight * row.pressure;
-    let total: f64 = rows.iter().map(load).sum();
-    if total <= 0.0 {
+    // Rows without a partner have no normal, and must not even be multiplied by zero.
+    let loaded: Vec<&InterfaceRow> = rows.iter().filter(|row| load(row) > 0.0).collect();
+    let total: f64 = loaded.iter().copied().map(load).sum();
+    if loaded.is_empty() {
         return;
     }
     let mean =
-        |value: &dyn Fn(&InterfaceRow) -> f64| rows.iter().map(|row| load(row) * value(row)).sum::<f64>() / total;
+        |value: &dyn Fn(&InterfaceRow) -> f64| loaded.iter().map(|row| load(row) * value(row)).sum::<f64>() / total;
     let from = view.place([mean(&|row| row.x), mean(&|row| row.y)]);
     // Support is positive along the mean normal, whether the driven body lies above or below; resistance is against +x.
     let up = mean(&|row| row.normal[1]).signum();

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
-use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
 use crate::output::OutputError;
@@ -29,6 +29,8 @@ pub fn render(svg: &str, path: &Path) -> Result<Vec<u8>, OutputError> {
     let scale = (DPI / 72.0) as f32;
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
     let mut pixmap = Pixmap::new(width.ceil() as u32, height.ceil() as u32).ok_or_else(|| fail("no extent".into()))?;
+    // The last row and column reach beyond the sheet: white there too, not half transparent.
+    pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     pixmap.encode_png().map_err(|error| fail(error.to_string()))
 }
