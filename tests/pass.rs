@@ -67,16 +67,16 @@ fn nodal_sites_and_few_steps_reach_the_end() {
 #[test]
 fn work_is_stored_or_dissipated() {
     let error = |steps: usize| {
-        let found = done(&Pass { steps, ..Pass::default() });
+        let found = done(&Pass { steps, element: 0.05, ..Pass::default() });
         let work = found.records.last().unwrap().external_work;
         let worst = found.records.iter().map(|r| (r.external_work - r.strain_energy - r.dissipated).abs() / work);
         worst.fold(0.0, f64::max)
     };
     let errors = [76, 152, 304].map(error);
     println!("energy error at 76, 152, 304 steps: {errors:?}");
-    // What is left is the energy of the stabilisation at quadrature sites, which falls with the element size.
+    // First order: sites close and open inside a step.
     assert!(errors[1] < 5e-3);
-    assert!(errors[1] < errors[0] && errors[2] < errors[1]);
+    assert!(errors[1] < 0.7 * errors[0] && errors[2] < 0.7 * errors[1]);
 }
 
 #[test]

@@ -144,9 +144,8 @@ fn rotation_turns_a_body_about_its_position() {
 #[test]
 fn multipliers_of_a_lower_degree_are_fewer() {
     let multipliers = |sets: &[&str]| model(sets).pairs[0].unknowns();
-    // two per function: pressure and traction; 4 elements of degree 2, 1, 0
+    // two per function: pressure and traction; 4 elements of degree 2, 0
     assert_eq!(multipliers(&[]), 2 * 6);
-    assert_eq!(multipliers(&["contact.0.numerics.multiplier_degree=1"]), 2 * 5);
     assert_eq!(multipliers(&["contact.0.numerics.multiplier_degree=0"]), 2 * 4);
     assert_eq!(multipliers(&["contact.0.law={ type = \"frictionless\" }"]), 6);
 }

@@ -75,12 +75,14 @@ impl SiteState {
 
     /// Work of friction over the step, see `InterfaceForces::dissipated`.
     pub fn dissipated(&self) -> f64 {
-        if self.answer.status == ContactStatus::Open {
-            return 0.0;
-        }
         let [deflection, traction] = self.old;
+        let slip = self.slip + deflection - self.answer.deflection;
+        if self.answer.status == ContactStatus::Open {
+            // rubbed on the way to release
+            return if slip.is_nan() { 0.0 } else { self.weight * (0.5 * traction * slip).max(0.0) };
+        }
         let mean = if traction * self.answer.q < 0.0 { self.answer.q } else { 0.5 * (traction + self.answer.q) };
-        self.weight * mean * (self.slip + deflection - self.answer.deflection)
+        self.weight * mean * slip
     }
 
     /// What is reported; `states` are the quadrature points.

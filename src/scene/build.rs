@@ -170,10 +170,11 @@ fn pair(contact: &ContactSpec, bodies: &Bodies, key: &KeyPath) -> Result<PairSpe
             Projection::Ray => Some(contact::Projection::Ray),
             Projection::Auto => None,
         },
-        integration: Some(match numerics.integration {
-            Integration::Element => contact::Integration::Element,
-            Integration::Segment => contact::Integration::Segment,
-        }),
+        integration: match numerics.integration {
+            Integration::Element => Some(contact::Integration::Element),
+            Integration::Segment => Some(contact::Integration::Segment),
+            Integration::Auto => None,
+        },
         points: numerics.points,
         r: Some(numerics.r),
         r_tangential: numerics.r_tangential,

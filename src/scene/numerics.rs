@@ -38,7 +38,7 @@ impl Default for Numerics {
         Self {
             sites: Sites::Quadrature,
             projection: Projection::Auto,
-            integration: Integration::Element,
+            integration: Integration::Auto,
             points: None,
             r: 1.0,
             r_tangential: None,
@@ -77,6 +77,8 @@ pub enum Integration {
     Element,
     /// Gauss points on segments between the ends of nonmortar and projected mortar elements: passes the patch test exactly.
     Segment,
+    /// `segment` on mortar curves of degree 2 or more with corners (quadratic Lagrange), else `element`.
+    Auto,
 }
 
 /// Degrees of multipliers on the elements of `edge` that do not let the pressure oscillate, highest first.

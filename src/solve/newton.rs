@@ -16,7 +16,7 @@ const RELATIVE: f64 = 1e-9;
 const ROUND_OFF: f64 = 1e-14;
 
 /// Growth of the residual that a full step may show.
-const GROWTH: f64 = 1.0;
+const GROWTH: f64 = 1.0 + 1e-6;
 /// Lengths tried when a full step is no good: 1, 1/2, 1/4, ...
 const HALVINGS: i32 = 7;
 

@@ -1,7 +1,12 @@
 //! First guess of a step: driven bodies move as rigid bodies, everything else as in the last step.
 
 use crate::geometry::Point;
-use crate::model::{Control, Model, State, Trend, evaluate};
+use crate::model::{ContactStatus, Control, Model, Pair, State, Trend, evaluate};
+
+/// Overlap with which a landing body is set down, in element lengths.
+const LANDING: f64 = 0.02;
+/// Moves towards the counterpart at most.
+const MAX_APPROACHES: usize = 100;
 
 /// Translation of every body between two times: the mean increment of its prescribed components.
 fn rigid_shifts(model: &Model, from: f64, to: f64) -> Vec<Point> {
@@ -40,6 +45,46 @@ fn extrapolate(model: &Model, start: &State, time: f64, trend: &Trend, parabola:
     trial
 }
 
+/// Moves bodies that are held only by forces and contact, and touch nothing, along their load until they touch.
+///
+/// The smallest gap is never more than the way to go, so moving by it cannot pass through the counterpart.
+fn land(model: &Model, start: &State, trial: &mut State) {
+    for (k, load) in loads(model, trial.time) {
+        let Some(direction) = load.try_normalize(0.0) else { continue };
+        for _ in 0..MAX_APPROACHES {
+            let Some(found) = evaluate(model, start, trial, false) else { break };
+            let pairs = || {
+                let of_body = |pair: &Pair| pair.nonmortar.body == k || pair.mortar.body == k;
+                model.pairs.iter().zip(&found.interfaces).filter(move |(pair, _)| of_body(pair))
+            };
+            let touches = pairs().any(|(_, i)| i.sites.iter().any(|s| s.status != ContactStatus::Open));
+            let gap = pairs().fold(f64::INFINITY, |m, (_, i)| m.min(i.smallest_gap));
+            if touches || !gap.is_finite() {
+                break;
+            }
+            let shift = direction * (gap.max(0.0) + LANDING * model.element_size);
+            trial.u[model.bodies[k].nodes()].iter_mut().for_each(|u| *u += shift);
+        }
+    }
+    trial.prescribe(model, trial.time);
+}
+
+/// Resultant of the given forces on each body that has any.
+fn loads(model: &Model, time: f64) -> Vec<(usize, Point)> {
+    let mut loads: Vec<(usize, Point)> = Vec::new();
+    for motion in &model.motions {
+        if let Control::Force(table) = &motion.control {
+            if loads.last().is_none_or(|(k, _)| *k != motion.body) {
+                loads.push((motion.body, Point::zeros()));
+            }
+            if let Some((_, load)) = loads.last_mut() {
+                load[motion.component] += table.at(time);
+            }
+        }
+    }
+    loads
+}
+
 /// Guesses for the end of a step, the one with the smallest residual first; those that turn a body inside out are left
 /// out.
 pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<State> {
@@ -50,6 +95,7 @@ pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<State> {
             guesses.push(extrapolate(model, start, time, trend, true));
         }
     }
+    guesses.iter_mut().for_each(|trial| land(model, start, trial));
     let size = |trial: &State| {
         evaluate(model, start, trial, false).map(|found| found.residual.iter().map(|v| v * v).sum::<f64>())
     };
