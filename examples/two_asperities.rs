@@ -19,7 +19,8 @@ use asperity::model::{BodySpec, Builder, Control, Model, PairSpec, State, Table}
 use asperity::solve;
 
 fn asperity(up: bool, basis: BasisSpec, h: f64) -> Result<BodySpec, Box<dyn Error>> {
-    let bump = Profile::Cosine(Cosine { height: 0.4, wavelength: 1.6, centers: Some(vec![0.0]), count: None, spacing: None });
+    let bump =
+        Profile::Cosine(Cosine { height: 0.4, wavelength: 1.6, centers: Some(vec![0.0]), count: None, spacing: None });
     let flat = Profile::default();
     let (block, position) = if up {
         (Block { x: [-2.0, 2.0], y: [-1.0, 0.0], top: bump, bottom: flat }, [0.0, 0.0])

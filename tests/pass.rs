@@ -36,7 +36,9 @@ fn level_1_runs_without_a_failed_step_in_few_iterations() {
             let found = done(&Pass { friction, degree, lagrange, element: 0.05, ..Pass::default() });
             let (deviation, slipping) = identity(&found, friction);
             let mean = mean_iterations(&found);
-            println!("p = {degree}, mu = {friction}: {mean:.2} iterations, identity {deviation:.1e} at {slipping} steps");
+            println!(
+                "p = {degree}, mu = {friction}: {mean:.2} iterations, identity {deviation:.1e} at {slipping} steps"
+            );
             assert_eq!(found.outcome.cuts, 0);
             assert!(mean <= 5.0);
             assert!(deviation < 1e-8 && slipping >= 20);
@@ -46,7 +48,8 @@ fn level_1_runs_without_a_failed_step_in_few_iterations() {
                     assert!((r.force[c] - r.reaction_base[c]).abs() < 1e-8 * found.peak(c), "step {}", r.step);
                 }
             }
-            let left = found.records.last().unwrap().strain_energy / found.records.iter().fold(0.0, |m, r| r.strain_energy.max(m));
+            let left = found.records.last().unwrap().strain_energy
+                / found.records.iter().fold(0.0, |m, r| r.strain_energy.max(m));
             assert!(left < 1e-12, "strain energy is back to zero after separation: {left:.1e}");
         }
     }

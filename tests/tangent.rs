@@ -55,7 +55,14 @@ fn tangent_equals_differences_in_all_branches() {
                 if degree == 1 && projection == Projection::Closest {
                     continue; // the closest point of a polygon sits on its corners: no derivative there
                 }
-                let setup = Pass { degree, lagrange, element: 0.2, sites: Some(sites), projection: Some(projection), ..Pass::default() };
+                let setup = Pass {
+                    degree,
+                    lagrange,
+                    element: 0.2,
+                    sites: Some(sites),
+                    projection: Some(projection),
+                    ..Pass::default()
+                };
                 let model = pass(&setup);
                 for (time, ripple) in [(0.40, 0.0), (0.45, 0.003), (0.52, 0.003)] {
                     let (start, trial) = touching(&model, time, ripple);
@@ -87,10 +94,17 @@ fn frictionless_tangent_is_symmetric() {
     // (Ray projection gives up symmetry for forces that do not jump at mortar corners.)
     for projection in [Projection::Closest] {
         for sites in [Sites::Nodal, Sites::Quadrature] {
-            let setup = Pass { friction: 0.0, element: 0.2, sites: Some(sites), projection: Some(projection), ..Pass::default() };
+            let setup = Pass {
+                friction: 0.0,
+                element: 0.2,
+                sites: Some(sites),
+                projection: Some(projection),
+                ..Pass::default()
+            };
             let model = pass(&setup);
             let (start, trial) = touching(&model, 0.45, 0.003);
-            let matrix = evaluate(&model, &start, &trial, true).expect("admissible").system.expect("tangent").assemble();
+            let matrix =
+                evaluate(&model, &start, &trial, true).expect("admissible").system.expect("tangent").assemble();
             let largest = matrix.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             for j in 0..matrix.pattern.n {
                 for k in matrix.pattern.columns[j]..matrix.pattern.columns[j + 1] {

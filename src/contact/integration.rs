@@ -81,7 +81,13 @@ impl EdgeFunctions<'_> {
 
 /// Parameters of the nonmortar edge at which a mortar element begins or ends, sorted: where the integrands of the
 /// interface are not smooth. Found by inverting the projection for every mortar element end.
-pub fn mortar_cuts(nonmortar: &Curve, mortar: &Curve, at: &Configuration, projection: Projection, reach: f64) -> Vec<f64> {
+pub fn mortar_cuts(
+    nonmortar: &Curve,
+    mortar: &Curve,
+    at: &Configuration,
+    projection: Projection,
+    reach: f64,
+) -> Vec<f64> {
     let breaks = mortar.basis.breaks();
     // Closest point on the mortar: x lies on the mortar normal, a ray from the mortar end. Ray: the reverse roles.
     let inverse = match projection {

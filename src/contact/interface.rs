@@ -74,6 +74,8 @@ pub struct SiteMemory {
     pub deflection: f64,
     /// Projected traction `q^` (nominal).
     pub traction: f64,
+    /// `p - r_N g`: the pressure of a closed site, negative where open; 0 without a partner.
+    pub closure: f64,
     /// Internal variables of the law.
     pub variables: Vec<f64>,
 }
@@ -148,7 +150,8 @@ pub struct InterfaceForces {
     /// Force on the nonmortar body from friction alone.
     pub friction_force: Vec2,
     /// Work of friction over the step, `sum w q^ (s - change of the deflection)` with the mean of `q^` over the step
-    /// (trapezoidal rule, second order; the final value where `q^` changes its sign): never negative for a set-valued law.
+    /// (trapezoidal rule; the final value where `q^` changes its sign), and only the share of the step in which the site was
+    /// closed: never negative for a set-valued law.
     pub dissipated: f64,
     /// Largest penetration at an integration point in contact.
     pub penetration: f64,

@@ -25,8 +25,8 @@ use super::interface::{
 };
 use super::kinematics::Orientation;
 use super::point::{Curves, PointState};
-use super::sites::{Site, SiteState, group, recall};
 use super::projection::Target;
+use super::sites::{Site, SiteState, group, recall};
 
 /// Numerical choices of a pair, all resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +90,7 @@ impl Mortar {
             path_rule: gauss(mortar.basis.degree() + 2),
             stiffness: lengths.iter().map(|h| modulus / h).collect(),
             augmentation: modulus / shortest,
-            reach: 0.5 * total,
+            reach: total,
             law: (!law.frictionless()).then_some(law),
             nonmortar,
             mortar,
@@ -161,7 +161,8 @@ impl Mortar {
         SiteState {
             weight: if has_partner { weight } else { full },
             arc,
-            old: memory.map_or([0.0; 2], |m| [m.deflection, m.traction]),
+            old: memory.map_or([0.0; 3], |m| [m.deflection, m.traction, m.closure]),
+            closure: if has_partner { p - r[0] * input.gap } else { 0.0 },
             gap: input.gap + none,
             slip: input.slip + none,
             stretch: input.stretch,
@@ -201,8 +202,7 @@ impl ContactDiscretization for Mortar {
         let segments = match self.numerics.integration {
             Integration::Element => None,
             Integration::Segment => {
-                let cuts =
-                    mortar_cuts(&self.nonmortar, &self.mortar, &trial.at, self.numerics.projection, self.reach);
+                let cuts = mortar_cuts(&self.nonmortar, &self.mortar, &trial.at, self.numerics.projection, self.reach);
                 let functions = EdgeFunctions { curve: &self.nonmortar, multiplier: self.multiplier.as_deref() };
                 Some(functions.points(&self.rule, &cuts))
             }

@@ -23,8 +23,10 @@ pub struct SiteState {
     pub weight: f64,
     /// Reference arc length.
     pub arc: f64,
-    /// Deflection and traction at the start of the step.
-    pub old: [f64; 2],
+    /// Deflection, traction and closure at the start of the step.
+    pub old: [f64; 3],
+    /// See [`SiteMemory::closure`].
+    pub closure: f64,
     pub gap: f64,
     pub slip: f64,
     pub stretch: f64,
@@ -69,20 +71,25 @@ impl SiteState {
             arc: self.arc,
             deflection: self.answer.deflection,
             traction: self.answer.q,
+            closure: self.closure,
             variables: self.answer.variables.clone(),
         }
     }
 
     /// Work of friction over the step, see `InterfaceForces::dissipated`.
     pub fn dissipated(&self) -> f64 {
-        let [deflection, traction] = self.old;
-        let slip = self.slip + deflection - self.answer.deflection;
-        if self.answer.status == ContactStatus::Open {
-            // rubbed on the way to release
-            return if slip.is_nan() { 0.0 } else { self.weight * (0.5 * traction * slip).max(0.0) };
+        if self.slip.is_nan() {
+            return 0.0;
         }
-        let mean = if traction * self.answer.q < 0.0 { self.answer.q } else { 0.5 * (traction + self.answer.q) };
-        self.weight * mean * slip
+        let [deflection, traction, before] = self.old;
+        let now = self.answer.q;
+        let mean = if traction * now < 0.0 { now } else { 0.5 * (traction + now) };
+        // closed for a part of the step: the closure runs from one value to the other
+        let (low, high) = (before.min(self.closure), before.max(self.closure));
+        let share = if low < 0.0 && high > 0.0 { high / (high - low) } else { 1.0 };
+        let work = mean * share * (self.slip + deflection - self.answer.deflection);
+        // rubbing on the way to release cannot give work back
+        self.weight * if self.answer.status == ContactStatus::Open { work.max(0.0) } else { work }
     }
 
     /// What is reported; `states` are the quadrature points.

@@ -45,7 +45,8 @@ impl SparseLu {
         {
             return Ok(symbolic.clone());
         }
-        let symbolic = SymbolicLu::try_new(view(&matrix.pattern)).map_err(|e| SolveError::Singular(format!("{e:?}")))?;
+        let symbolic =
+            SymbolicLu::try_new(view(&matrix.pattern)).map_err(|e| SolveError::Singular(format!("{e:?}")))?;
         self.symbolic = Some((matrix.pattern.clone(), symbolic.clone()));
         Ok(symbolic)
     }
@@ -57,7 +58,8 @@ impl LinearSolver for SparseLu {
         let matrix = system.assemble();
         let symbolic = self.symbolic(&matrix)?;
         let faer_matrix = SparseColMatRef::new(view(&matrix.pattern), &matrix.values);
-        let lu = Lu::try_new_with_symbolic(symbolic, faer_matrix).map_err(|e| SolveError::Singular(format!("{e:?}")))?;
+        let lu =
+            Lu::try_new_with_symbolic(symbolic, faer_matrix).map_err(|e| SolveError::Singular(format!("{e:?}")))?;
         self.factorisations += 1;
         let apply = |b: &[f64]| -> Vec<f64> {
             let column = faer::ColRef::from_slice(b);

@@ -6,7 +6,7 @@ use asperity_laws::FrictionLaw;
 
 use crate::bulk::{Elements, Material};
 use crate::contact::{Integration, Mortar, Numerics, Projection, Sites};
-use crate::geometry::{Basis, Curve, Edge, Patch};
+use crate::geometry::{Basis, Curve, Edge, Patch, Point};
 use crate::math::gauss;
 
 use super::body::{Body, BodyKind};
@@ -167,6 +167,10 @@ impl Builder {
         let modulus = self.bodies.iter().filter_map(Body::material).map(|m| m.youngs_modulus());
         let driven = self.motions.iter().find(|m| m.drive).map(|m| m.body);
         Ok(Model {
+            stride: pairs.iter().flat_map(|p| [&p.nonmortar, &p.mortar]).fold(f64::INFINITY, |m, side| {
+                let points = || side.nodes.iter().map(|&i| point(&self.bodies, i));
+                m.min(0.25 * points().zip(points().skip(1)).map(|(a, b)| (b - a).norm()).sum::<f64>())
+            }),
             driven: driven.or(pairs.first().map(|p| p.nonmortar.body)).unwrap_or(0),
             modulus: modulus.fold(f64::INFINITY, f64::min),
             element_size: if element_size.is_finite() { element_size } else { mean_element(&self.bodies) },
@@ -193,13 +197,18 @@ impl Builder {
         let (mortar, target) = self.side(&spec.mortar)?;
         let moduli = [nonmortar.body, mortar.body].map(|k| self.bodies[k].material().map(|m| m.youngs_modulus()));
         let modulus = moduli.into_iter().flatten().reduce(f64::min);
-        let modulus =
-            modulus.ok_or_else(|| ModelError::BothRigid(spec.nonmortar.0.clone(), spec.mortar.0.clone()))?;
+        let modulus = modulus.ok_or_else(|| ModelError::BothRigid(spec.nonmortar.0.clone(), spec.mortar.0.clone()))?;
         let numerics = resolve(spec, &edge, &target);
         let contact = Mortar::new(edge, target, spec.law.clone(), spec.multiplier.clone(), numerics, modulus);
         let size = modulus / crate::contact::ContactDiscretization::augmentation(&contact);
         Ok((Pair { nonmortar, mortar, contact: Arc::new(contact), offset }, size))
     }
+}
+
+/// Reference position of a control point, counted over all bodies.
+fn point(bodies: &[Body], node: usize) -> Point {
+    let body = &bodies[bodies.partition_point(|b| b.nodes().end <= node)];
+    body.points[node - body.offset]
 }
 
 /// Fills in the choices that the user left open.

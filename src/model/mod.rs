@@ -65,7 +65,10 @@ pub struct Model {
     pub driven: usize,
     /// Stress scale: the smallest Young's modulus.
     pub modulus: f64,
-    /// Length scale: mean element length of the contact edges (or of the bodies).
+    /// A quarter of the shortest contact edge: what a driven body may travel in one step without passing through another
+    /// unseen.
+    pub stride: f64,
+    /// Length scale: shortest element of the contact edges (mean element of the bodies where there is no contact).
     pub element_size: f64,
 }
 

@@ -11,7 +11,7 @@ use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
 use crate::contact;
 use crate::geometry::{self, BSpline, Basis, Edge, GeometryError, Point};
-use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, Table};
+use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Table, evaluate};
 
 /// Builds the model of a scene. Files that the scene names (profiles) are looked for in `base_dir`.
 ///
@@ -29,7 +29,39 @@ pub fn build(scene: &Scene, base_dir: &Path) -> Result<Model, SceneError> {
         builder.body(name, spec).map_err(|error| model_issue(&error, &key))?;
     }
     motions(scene, &mut builder)?;
-    builder.build().map_err(|error| model_issue(&error, &KeyPath::of("contact")).into())
+    let model = builder.build().map_err(|error| model_issue(&error, &KeyPath::of("contact")))?;
+    initial_overlap(scene, &model)?;
+    Ok(model)
+}
+
+/// Share of the smaller body that a first step can be asked to push out of the other one.
+const LARGEST_OVERLAP: f64 = 0.25;
+
+/// Bodies that start inside one another farther than any step could repair.
+fn initial_overlap(scene: &Scene, model: &Model) -> Result<(), Issue> {
+    let state = State::initial(model);
+    let Some(found) = evaluate(model, &state, &state, false) else { return Ok(()) };
+    for (k, (pair, interface)) in model.pairs.iter().zip(&found.interfaces).enumerate() {
+        let extent = |body: usize| {
+            let points = &model.bodies[body].points;
+            let range = |c: usize| {
+                let values = || points.iter().map(move |x| x[c]);
+                values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+            };
+            if model.bodies[body].is_rigid() { range(0).max(range(1)) } else { range(0).min(range(1)) }
+        };
+        let limit = LARGEST_OVERLAP * extent(pair.nonmortar.body).min(extent(pair.mortar.body));
+        if -interface.smallest_gap > limit {
+            let contact = &scene.contact[k];
+            let message = format!(
+                "`{}` starts {:.3e} deep inside `{}`: more than a first step can repair",
+                contact.nonmortar.body, -interface.smallest_gap, contact.mortar.body
+            );
+            let allowed = format!("an initial overlap below {limit:.3e}, a quarter of the smaller body");
+            return Err(Issue::value(KeyPath::of("contact").at(k), message).allowed(&allowed));
+        }
+    }
+    Ok(())
 }
 
 type Bodies<'a> = BTreeMap<&'a str, model::BodySpec>;

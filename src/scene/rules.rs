@@ -68,16 +68,19 @@ fn material_of(scene: &Scene, body: &BodySpec, key: &KeyPath, issues: &mut Vec<I
     }
 }
 
-/// A body without any support or drive is free to fly: Newton's matrix would be singular.
+/// A body without any support, drive or contact is free to fly: Newton's matrix would be singular.
 fn held(scene: &Scene, name: &str, body: &BodySpec, key: &KeyPath, issues: &mut Vec<Issue>) {
     let supported = scene.support.iter().any(|support| support.body == name);
     let driven = scene.drive.iter().any(|drive| drive.body == name);
     // a support of a misspelt body is reported as such
     let mut named = scene.support.iter().map(|s| &s.body).chain(scene.drive.iter().map(|d| &d.body));
     let misspelt = named.any(|name| !scene.body.contains_key(name));
-    if !body.rigid && !supported && !driven && !misspelt {
+    // one contact can push a body away but not hold it
+    let touches = |c: &&ContactSpec| c.nonmortar.body == name || c.mortar.body == name;
+    let clamped = scene.contact.iter().filter(touches).count() > 1;
+    if !body.rigid && !supported && !driven && !clamped && !misspelt {
         let issue = Issue::value(key.clone(), format!("nothing holds the body `{name}`"));
-        issues.push(issue.allowed("at least one [[support]] or [[drive]] for each deformable body"));
+        issues.push(issue.allowed("a [[support]], a [[drive]] or two contacts for each deformable body"));
     }
     if body.rigid && !scene.contact.iter().any(|contact| contact.mortar.body == name) {
         let issue = Issue::value(key.clone(), format!("the rigid body `{name}` is the mortar side of no contact"));

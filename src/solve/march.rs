@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::math::LinearSolver;
-use crate::model::{Evaluation, Model, Record, State, record};
+use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record};
 
 use super::newton::{StepFailure, solve_step};
 use super::status::{Outcome, Status};
@@ -74,6 +74,21 @@ pub fn march<E>(
     Ok(outcome)
 }
 
+/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`.
+fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
+    let travel = |until: f64| {
+        let of = |motion: &Motion| match &motion.control {
+            MotionControl::Displacement(table) => (table.at(until) - table.at(time)).abs(),
+            MotionControl::Force(_) => 0.0,
+        };
+        model.motions.iter().map(of).fold(0.0, f64::max)
+    };
+    while travel(wanted) > model.stride {
+        wanted = time + 0.5 * (wanted - time);
+    }
+    wanted
+}
+
 /// Sub-steps up to `target`; `dt` is remembered from one nominal step to the next.
 #[allow(clippy::too_many_arguments)]
 fn reach(
@@ -94,7 +109,8 @@ fn reach(
         }
         // A remainder below half a sub-step joins the last one.
         let left = target - time;
-        let next = if left <= 1.5 * *dt { target } else { time + *dt };
+        let wanted = if left <= 1.5 * *dt { target } else { time + *dt };
+        let next = within_stride(model, time, wanted);
         match solve_step(model, &outcome.state, next, solver, interrupt, &mut outcome.iterations) {
             Ok(done) => {
                 outcome.state = done.state;

@@ -20,11 +20,16 @@ const GROWTH: f64 = 1.0 + 1e-6;
 /// Lengths tried when a full step is no good: 1, 1/2, 1/4, ...
 const HALVINGS: i32 = 7;
 
+/// Smallest spring of a floating body in units of `E`.
+const FAINTEST_SPRING: f64 = 1e-10;
+
 /// Why a step was thrown away.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StepFailure {
     /// No convergence.
-    #[error("Newton's method did not converge in {iterations} iterations (residual {residual:.1e} of the largest nodal force)")]
+    #[error(
+        "Newton's method did not converge in {iterations} iterations (residual {residual:.1e} of the largest nodal force)"
+    )]
     Iterations {
         /// Linear solves.
         iterations: usize,
@@ -107,8 +112,8 @@ fn newton(
         }
         *iterations += 1;
         let increment = increment(model, &mut evaluation, solver)?;
-        (trial, evaluation) = update(model, start, &trial, &increment, norm(&evaluation))
-            .ok_or(StepFailure::Inverted(iteration + 1))?;
+        (trial, evaluation) =
+            update(model, start, &trial, &increment, norm(&evaluation)).ok_or(StepFailure::Inverted(iteration + 1))?;
     }
     unreachable!("the last iteration returns")
 }
@@ -161,28 +166,45 @@ fn norm(evaluation: &Evaluation) -> f64 {
     evaluation.residual.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-/// A body held only by forces and contact has no stiffness against its load while it touches nothing, nor along the
-/// surface while nothing sticks. A spring on its load equations lets it travel by one element length per iteration until
-/// it is held; it acts on the increment alone, never on the solution.
+/// Springs for bodies that nothing holds at this iterate: those without a prescribed displacement while they touch nothing
+/// or nothing sticks (no stiffness against rigid motion), and load equations of guided bodies that touch nothing. A spring
+/// lets the body travel by about one element length per iteration until it is held. It acts on the increment alone, never
+/// on the solution, and fades with the residual, so that convergence stays quadratic.
 fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut crate::math::Triplets) {
-    for (motion, unknown) in model.motions.iter().zip(&model.equations.of_motion) {
-        let Some(e) = *unknown else { continue };
-        let guided = model.motions.iter().any(|m| m.body == motion.body && matches!(m.control, Control::Displacement(_)));
+    for k in 0..model.bodies.len() {
+        let motions = || model.motions.iter().zip(&model.equations.of_motion).filter(|(m, _)| m.body == k);
+        let guided = motions().any(|(m, _)| matches!(m.control, Control::Displacement(_)));
+        let loaded: Vec<usize> = motions().filter_map(|(_, equation)| *equation).collect();
+        if (guided && loaded.is_empty()) || model.bodies[k].is_rigid() && loaded.is_empty() {
+            continue;
+        }
         let holds = |status: ContactStatus| match status {
             ContactStatus::Open => false,
             ContactStatus::Stick => true,
             ContactStatus::Slip => guided,
         };
         let held = model.pairs.iter().zip(&evaluation.interfaces).any(|(pair, found)| {
-            (pair.nonmortar.body == motion.body || pair.mortar.body == motion.body)
-                && found.sites.iter().any(|s| holds(s.status))
+            (pair.nonmortar.body == k || pair.mortar.body == k) && found.sites.iter().any(|s| holds(s.status))
         });
-        if !held {
-            let load = evaluation.residual[e].abs();
-            let floor = f64::EPSILON * model.modulus;
-            entries.push((e, e, (load / model.element_size).max(floor)));
+        if held {
+            continue;
         }
+        let equations = if guided { loaded } else { equations_of(model, k) };
+        let load = equations.iter().fold(0.0_f64, |m, &e| m.max(evaluation.residual[e].abs()));
+        let stiffness = load / (model.element_size * equations.len() as f64);
+        let spring = stiffness.max(FAINTEST_SPRING * model.modulus);
+        entries.extend(equations.into_iter().map(|e| (e, e, spring)));
     }
+}
+
+/// Displacement unknowns of a body, each once.
+fn equations_of(model: &Model, body: usize) -> Vec<usize> {
+    let nodes = model.bodies[body].nodes();
+    let mut equations: Vec<usize> =
+        nodes.flat_map(|i| (0..2).filter_map(move |c| model.equations.unknown(i, c))).collect();
+    equations.sort_unstable();
+    equations.dedup();
+    equations
 }
 
 /// The trial state as the new committed one: internal variables, forces and work.

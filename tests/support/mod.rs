@@ -13,7 +13,9 @@ use asperity::geometry::{BasisSpec, Edge, Profile, ShapeSpec, build};
 use asperity::laws::FrictionLaw;
 use asperity::laws::builtin::Coulomb;
 use asperity::math::SparseLu;
-use asperity::model::{BodySpec, Builder, Control, InterfaceRow, Model, PairSpec, Record, State, Table, interface_rows};
+use asperity::model::{
+    BodySpec, Builder, Control, InterfaceRow, Model, PairSpec, Record, State, Table, interface_rows,
+};
 use asperity::solve::{self, Outcome};
 
 /// What can be varied. Lengths are multiples of `length`, moduli of `stress`.
@@ -93,7 +95,9 @@ pub fn pass(setup: &Pass) -> Model {
     pair.points = setup.points;
     pair.r = Some(setup.r);
     let built = (|| {
-        builder.body("lower", body(setup, true, setup.element))?.body("upper", body(setup, false, 0.93 * setup.element))?;
+        builder
+            .body("lower", body(setup, true, setup.element))?
+            .body("upper", body(setup, false, 0.93 * setup.element))?;
         builder.motion("lower", Edge::Bottom, 0, hold(), false)?.motion("lower", Edge::Bottom, 1, hold(), false)?;
         builder.motion("upper", Edge::Top, 0, drag, true)?.motion("upper", Edge::Top, 1, hold(), true)?;
         builder.contact(pair);
