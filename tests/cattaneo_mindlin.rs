@@ -222,7 +222,9 @@ fn stick_zone_and_largest_traction() {
         print(&found);
         assert!(percent(found.c / C_OVER_A).abs() < 1.0, "{found:?}");
         assert!(percent(found.q_max).abs() < 1.0, "{found:?}");
-        assert!((found.c_status[0] - C_OVER_A).abs() < 1.2 * found.c_status[1], "{found:?}");
+        // the boundary between sticking and slipping sites is known to a site or so: the deflection of sticking sites
+        // (see `SiteMemory`) smears it
+        assert!((found.c_status[0] - C_OVER_A).abs() < 1.5 * found.c_status[1], "{found:?}");
         assert!((-5.0..1.0).contains(&percent(found.q_largest)), "{found:?}");
         errors.push(found.q_error);
     }

@@ -82,7 +82,7 @@ fn two_pairs_carry_the_same_uniform_pressure() {
 fn bodies_deep_inside_one_another_are_refused() {
     let error =
         build(&scene(STACK, &["body.middle.position=[0.0, 0.4]", "body.top.position=[0.0, 1.4]"]), Path::new("."));
-    let said = error.err().expect("refused").to_string();
+    let said = error.expect_err("refused").to_string();
     assert!(said.contains("`middle` starts 6.000e-1 deep inside `low`"), "{said}");
     assert!(said.contains("below 2.500e-1"), "{said}");
 }

@@ -119,7 +119,11 @@ fn solve(model: &Model, steps: usize) -> (State, Evaluation) {
             let increment = solver.solve(evaluation.system.as_ref().expect("tangent"), &right).expect("solvable");
             trial.advance(model, &increment, 1.0);
         }
-        last = evaluate(model, &state, &trial, false);
+        let end = evaluate(model, &state, &trial, false).expect("admissible");
+        for (pair, interface) in trial.pairs.iter_mut().zip(&end.interfaces) {
+            pair.sites.clone_from(&interface.memory); // of the polished state, not of the one before
+        }
+        last = Some(end);
         state = trial;
     }
     (state, last.expect("admissible"))
