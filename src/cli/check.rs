@@ -88,7 +88,12 @@ fn motion_line(model: &Model, motion: &Motion) -> String {
     let course = if table.is_constant() {
         format!("held at {}", table.at(0.0))
     } else {
-        format!("over {} times", table.time.len())
+        let course = table.value.iter().map(f64::to_string).collect::<Vec<_>>();
+        let until = table.time.last().copied().unwrap_or_default();
+        match course.len() {
+            0..=6 => format!("{} until time {until}", course.join(" to ")),
+            n => format!("from {} through {n} values to {} at time {until}", course[0], course[n - 1]),
+        }
     };
     let component = ["x", "y"][motion.component];
     format!("{kind} of body {}: {control} {component} {course}", model.bodies[motion.body].name)

@@ -96,7 +96,11 @@ impl Progress {
     fn step(&mut self, record: &Record) {
         let [fx, fy] = record.force;
         let (iterations, cuts) = (record.newton_iterations, record.cuts);
-        let message = format!("Fx {fx:.4e}  Fy {fy:.4e}  Fx/Fy {:.4}  {iterations} it {cuts} cuts", record.mu_global);
+        let forces = match record.contact_length > 0.0 {
+            true => format!("Fx {fx:.4e}  Fy {fy:.4e}  Fx/Fy {:.4}", record.mu_global),
+            false => "no contact".into(),
+        };
+        let message = format!("{forces}  {iterations} it {cuts} cuts");
         match self {
             Self::Bar(bar) => {
                 bar.set_position(record.step as u64);

@@ -26,7 +26,7 @@ pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> Stri
     };
     Column {
         marks: marks(&x, instants),
-        x_range: x.range(),
+        x_range: x.contact_range(records),
         x_label: x.label,
         charts: vec![chart],
         ..Column::default()

@@ -28,14 +28,19 @@ pub fn svg(records: &[Record], local: Option<f64>, instants: &[Instant], units: 
         height: 128.0,
         ..Chart::default()
     };
-    let keys = reference(&mut chart, &x, &angles, local);
+    let keys = reference(&mut chart, (&x, records), &angles, local);
     chart.series.push(Series { width: 1.4, ..Series::new("*μ*_{global}", BLUE, global) });
-    let (marks, x_range) = (marks(&x, instants), x.range());
+    let (marks, x_range) = (marks(&x, instants), x.contact_range(records));
     Column { marks, x_range, x_label: x.label, charts: vec![chart], keys, ..Column::default() }.draw()
 }
 
 /// Adds what `mu_global` is compared with and returns the legend it needs.
-fn reference(chart: &mut Chart, x: &Abscissa, angles: &[[f64; 2]], local: Option<f64>) -> Vec<Key> {
+fn reference(
+    chart: &mut Chart,
+    (x, records): (&Abscissa, &[Record]),
+    angles: &[[f64; 2]],
+    local: Option<f64>,
+) -> Vec<Key> {
     let Some(mu) = local else {
         let frictionless = angles.iter().map(|[x, angle]| [*x, tangent(*angle)]).collect();
         chart.series.push(Series::new("tan *θ*", GREY, frictionless).dashed("3 2"));
@@ -43,7 +48,7 @@ fn reference(chart: &mut Chart, x: &Abscissa, angles: &[[f64; 2]], local: Option
     };
     let band = bounds(angles, mu);
     chart.series.extend(bound_lines(&band));
-    chart.series.push(level(x, mu));
+    chart.series.push(level(x, records, mu));
     chart.bands.push(band);
     let label = "between tan(*θ* ± arctan *μ*_{local}), *θ* = mean contact angle".into();
     vec![Key { label, colour: PALE_BLUE.into(), dash: "", width: 5.0 }]
@@ -72,8 +77,8 @@ fn bound_lines(band: &Band) -> [Series; 2] {
     })
 }
 
-fn level(x: &Abscissa, mu: f64) -> Series {
-    let [start, end] = x.range();
+fn level(x: &Abscissa, records: &[Record], mu: f64) -> Series {
+    let [start, end] = x.contact_range(records);
     Series { width: 0.9, ..Series::new("*μ*_{local}", INK, vec![[start, mu], [end, mu]]).dashed("4 2") }
 }
 

@@ -116,6 +116,11 @@ fn save(folder: &Path, name: &str, svg: &str) -> Result<[PathBuf; 2], OutputErro
     Ok([vector, raster])
 }
 
+/// Margin around the touching part of a pass, as a share of it.
+const CONTACT_MARGIN: f64 = 0.15;
+/// Share of the analysis above which the touching part is not looked at alone.
+const MOST_OF_IT: f64 = 0.7;
+
 /// Horizontal coordinate of the charts over the history.
 struct Abscissa {
     label: String,
@@ -126,6 +131,16 @@ impl Abscissa {
     /// From the start of the analysis, which has no row, to the last row.
     fn range(&self) -> [f64; 2] {
         axis::range(self.values.iter().copied().chain([0.0]), 0.0)
+    }
+
+    /// The part in which the bodies touch, with a margin; all of it where that is most of it, or where they never touch.
+    fn contact_range(&self, records: &[Record]) -> [f64; 2] {
+        let touching = || self.values.iter().zip(records).filter(|(_, r)| r.contact_length > 0.0).map(|(x, _)| *x);
+        let ([start, end], [low, high]) = (self.range(), axis::range(touching(), CONTACT_MARGIN));
+        if touching().count() < 2 || high - low > MOST_OF_IT * (end - start) {
+            return [start, end];
+        }
+        [low.max(start), high.min(end)]
     }
 }
 
