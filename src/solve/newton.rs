@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::contact::ContactStatus;
 use crate::math::{LinearSolver, SolveError};
-use crate::model::{Control, Evaluation, Model, State, evaluate};
+use crate::model::{Control, Evaluation, Model, Pair, State, evaluate};
 
 use super::predictor::{guesses, trend};
 
@@ -28,13 +28,15 @@ const FAINTEST_SPRING: f64 = 1e-10;
 pub enum StepFailure {
     /// No convergence.
     #[error(
-        "Newton's method did not converge in {iterations} iterations (residual {residual:.1e} of the largest nodal force)"
+        "Newton's method did not converge in {iterations} iterations (residual {residual:.1e} of the largest nodal force){hint}"
     )]
     Iterations {
         /// Linear solves.
         iterations: usize,
         /// Last residual over the largest nodal force.
         residual: f64,
+        /// What the last iterate suggests, starting with a separator; may be empty.
+        hint: String,
     },
     /// A body was turned inside out and no shorter step helped.
     #[error("a body is turned inside out (det F <= 0) in iteration {0}")]
@@ -105,7 +107,8 @@ fn newton(
         }
         if iteration == MAX_ITERATIONS || size.is_nan() {
             let residual = size / evaluation.force_scale;
-            return Err(StepFailure::Iterations { iterations: iteration, residual });
+            let hint = hint(model, &evaluation);
+            return Err(StepFailure::Iterations { iterations: iteration, residual, hint });
         }
         if interrupt.load(Ordering::Relaxed) {
             return Err(StepFailure::Interrupted);
@@ -194,6 +197,27 @@ fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut crate:
         let stiffness = load / (model.element_size * equations.len() as f64);
         let spring = stiffness.max(FAINTEST_SPRING * model.modulus);
         entries.extend(equations.into_iter().map(|e| (e, e, spring)));
+    }
+}
+
+/// Names a body that only forces and contact hold and that slips wherever it touches: its load may exceed what friction
+/// can carry.
+fn hint(model: &Model, evaluation: &Evaluation) -> String {
+    let free = |k: usize| {
+        let mut motions = model.motions.iter().filter(|m| m.body == k).peekable();
+        motions.peek().is_some() && motions.all(|m| matches!(m.control, Control::Force(_)))
+    };
+    let sticks = |k: usize| {
+        let pairs = model.pairs.iter().zip(&evaluation.interfaces);
+        let of_body = |(pair, _): &(&Pair, _)| pair.nonmortar.body == k || pair.mortar.body == k;
+        pairs.filter(of_body).any(|(_, found)| found.sites.iter().any(|s| s.status == ContactStatus::Stick))
+    };
+    match (0..model.bodies.len()).find(|&k| free(k) && !sticks(k)) {
+        Some(k) => format!(
+            "; body `{}` is held by forces and contact alone and sticks nowhere: friction may be too weak for an equilibrium",
+            model.bodies[k].name
+        ),
+        None => String::new(),
     }
 }
 
