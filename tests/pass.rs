@@ -4,15 +4,9 @@ mod support;
 
 use asperity::contact::Sites;
 use asperity::math::SparseLu;
-use asperity::solve::{Status, solve_step};
+use asperity::solve::solve_step;
 use std::sync::atomic::AtomicBool;
-use support::{Pass, Run, pass, run};
-
-fn done(setup: &Pass) -> Run {
-    let found = run(pass(setup), setup.steps);
-    assert_eq!(found.outcome.status, Status::Done, "{setup:?}");
-    found
-}
+use support::{Pass, Run, done, pass, run};
 
 /// Linear solves per nominal step with contact.
 fn mean_iterations(found: &Run) -> f64 {

@@ -16,7 +16,7 @@ use asperity::math::SparseLu;
 use asperity::model::{
     BodySpec, Builder, Control, InterfaceRow, Model, PairSpec, Record, State, Table, interface_rows,
 };
-use asperity::solve::{self, Outcome};
+use asperity::solve::{self, Outcome, Status};
 
 /// What can be varied. Lengths are multiples of `length`, moduli of `stress`.
 #[derive(Clone, Debug)]
@@ -140,4 +140,22 @@ pub fn run(model: Model, steps: usize) -> Run {
     });
     let outcome = outcome.unwrap_or_else(|e| match e {});
     Run { model, records, states, rows, outcome }
+}
+
+/// The finished run of a pass that must reach its end.
+pub fn done(setup: &Pass) -> Run {
+    let found = run(pass(setup), setup.steps);
+    assert_eq!(found.outcome.status, Status::Done, "{setup:?}");
+    found
+}
+
+/// Contact lasts from about -0.53 to 0.53; this climbs into it.
+pub fn climb() -> Pass {
+    Pass { element: 0.2, steps: 8, from: -0.6, to: -0.2, ..Pass::default() }
+}
+
+/// All kinds of sites with all projections.
+pub fn all_choices() -> Vec<(Sites, Projection)> {
+    let projections = [Projection::Closest, Projection::Ray];
+    [Sites::Quadrature, Sites::Nodal].into_iter().flat_map(|s| projections.map(|p| (s, p))).collect()
 }
