@@ -137,7 +137,8 @@ impl Assembly<'_> {
             let Some(state) = state else { continue };
             if p != 0.0 || q != 0.0 {
                 let form = self.curves.orientation.linearise(&state.z, state.third, -p, q);
-                congruence(&self.curves.columns(point, &state.partner), &form, |i, j, v| out.push((i, j, v)));
+                let columns: Vec<_> = self.curves.columns(point, &state.partner).collect();
+                congruence(&columns, &form, |i, j, v| out.push((i, j, v)));
             }
         }
     }

@@ -110,31 +110,28 @@ impl Curves<'_> {
         old.parameter_near(before.x, partner.xi)
     }
 
-    /// Spreads coefficients on slots to the control points: `visit(control point, coefficient)`, mortar control points
-    /// numbered after the nonmortar ones.
+    /// Spreads coefficients on slots to the control points: `visit(control point, coefficient)`, numbered as in
+    /// [`Self::columns`].
     pub fn spread(&self, point: &QuadraturePoint, partner: &Partner, row: &Slots, mut visit: impl FnMut(usize, Vec2)) {
-        let v = |k: usize| Vec2::new(row[2 * k], row[2 * k + 1]);
-        for i in 0..point.shape.count {
-            visit(point.shape.first + i, v(0) * point.shape.d[0][i] + v(3) * point.shape.d[1][i]);
-        }
-        let mortar = &partner.shape;
-        let offset = self.nonmortar.points.len() + mortar.first;
-        for i in 0..mortar.count {
-            visit(offset + i, v(1) * mortar.d[1][i] + v(2) * mortar.d[2][i] - v(0) * mortar.d[0][i]);
+        let v: [Vec2; 4] = std::array::from_fn(|k| Vec2::new(row[2 * k], row[2 * k + 1]));
+        for (node, [d, a, b, e]) in self.columns(point, partner) {
+            visit(node, v[0] * d + v[1] * a + v[2] * b + v[3] * e);
         }
     }
 
-    /// The slot map as a dense array: one pair of columns per control point, in the order of `spread`.
-    pub fn columns(&self, point: &QuadraturePoint, partner: &Partner) -> Vec<(usize, [f64; 4])> {
-        let mut out = Vec::with_capacity(point.shape.count + partner.shape.count);
-        for i in 0..point.shape.count {
-            out.push((point.shape.first + i, [point.shape.d[0][i], 0.0, 0.0, point.shape.d[1][i]]));
-        }
-        let (mortar, offset) = (&partner.shape, self.nonmortar.points.len() + partner.shape.first);
-        for i in 0..mortar.count {
-            out.push((offset + i, [-mortar.d[0][i], mortar.d[1][i], mortar.d[2][i], 0.0]));
-        }
-        out
+    /// The slot map of the control points that move a point: what each does to `(d, a, b, e)`. Mortar control points are
+    /// numbered after the nonmortar ones.
+    pub fn columns<'a>(
+        &self,
+        point: &'a QuadraturePoint,
+        partner: &'a Partner,
+    ) -> impl Iterator<Item = (usize, [f64; 4])> + 'a {
+        let (edge, mortar) = (&point.shape, &partner.shape);
+        let offset = self.nonmortar.points.len() + mortar.first;
+        let of_edge = (0..edge.count).map(|i| (edge.first + i, [edge.d[0][i], 0.0, 0.0, edge.d[1][i]]));
+        let of_mortar =
+            (0..mortar.count).map(move |i| (offset + i, [-mortar.d[0][i], mortar.d[1][i], mortar.d[2][i], 0.0]));
+        of_edge.chain(of_mortar)
     }
 }
 

@@ -1,6 +1,8 @@
 //! `evaluate(model, start, trial)`: residual and tangent, a pure function of its arguments.
 
-use crate::contact::{Configuration, ContactDiscretization, InterfaceForces, InterfaceStart, InterfaceTrial};
+use crate::contact::{
+    Configuration, ContactDiscretization, ContactStatus, InterfaceForces, InterfaceStart, InterfaceTrial,
+};
 use crate::geometry::Point;
 use crate::math::{SparseMatrix, System, Triplets};
 
@@ -22,6 +24,24 @@ pub struct Evaluation {
     pub strain_energy: f64,
     /// Largest nodal force among the parts of the residual: what a small residual is measured against.
     pub force_scale: f64,
+}
+
+impl Evaluation {
+    /// Euclidean norm of the residual.
+    pub fn norm(&self) -> f64 {
+        self.residual.iter().map(|v| v * v).sum::<f64>().sqrt()
+    }
+
+    /// The pairs in which a body takes part.
+    pub fn interfaces_of(&self, model: &Model, body: usize) -> impl Iterator<Item = &InterfaceForces> {
+        let takes_part = move |pair: &Pair| pair.nonmortar.body == body || pair.mortar.body == body;
+        model.pairs.iter().zip(&self.interfaces).filter(move |(pair, _)| takes_part(pair)).map(|(_, found)| found)
+    }
+
+    /// Status of every site at which a body may touch another.
+    pub fn statuses_of(&self, model: &Model, body: usize) -> impl Iterator<Item = ContactStatus> {
+        self.interfaces_of(model, body).flat_map(|found| found.sites.iter().map(|site| site.status))
+    }
 }
 
 /// Evaluates a trial state for a step that starts at `start`. `None` where a body is turned inside out (`det F <= 0`).

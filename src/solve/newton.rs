@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::contact::ContactStatus;
 use crate::math::{LinearSolver, SolveError};
-use crate::model::{Control, Evaluation, Model, Pair, State, evaluate};
+use crate::model::{Control, Evaluation, Model, State, evaluate};
 
 use super::predictor::{guesses, trend};
 
@@ -116,7 +116,7 @@ fn newton(
         *iterations += 1;
         let increment = increment(model, &mut evaluation, solver)?;
         (trial, evaluation) =
-            update(model, start, &trial, &increment, norm(&evaluation)).ok_or(StepFailure::Inverted(iteration + 1))?;
+            update(model, start, &trial, &increment, evaluation.norm()).ok_or(StepFailure::Inverted(iteration + 1))?;
     }
     unreachable!("the last iteration returns")
 }
@@ -144,14 +144,14 @@ fn update(model: &Model, start: &State, trial: &State, increment: &[f64], before
     };
     let full = moved(1.0);
     if let Some(evaluation) = evaluate(model, start, &full, true)
-        && norm(&evaluation) <= GROWTH * before
+        && evaluation.norm() <= GROWTH * before
     {
         return Some((full, evaluation));
     }
     let mut best: Option<(f64, f64)> = None;
     for k in 0..HALVINGS {
         let factor = 0.5_f64.powi(k);
-        if let Some(size) = evaluate(model, start, &moved(factor), false).as_ref().map(norm) {
+        if let Some(size) = evaluate(model, start, &moved(factor), false).as_ref().map(Evaluation::norm) {
             if best.is_none_or(|(smallest, _)| size < smallest) {
                 best = Some((size, factor));
             }
@@ -162,11 +162,6 @@ fn update(model: &Model, start: &State, trial: &State, increment: &[f64], before
     }
     let next = moved(best?.1);
     evaluate(model, start, &next, true).map(|evaluation| (next, evaluation))
-}
-
-/// Euclidean norm of the residual.
-fn norm(evaluation: &Evaluation) -> f64 {
-    evaluation.residual.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// Springs for bodies that nothing holds at this iterate: those without a prescribed displacement while they touch nothing
@@ -186,9 +181,7 @@ fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut crate:
             ContactStatus::Stick => true,
             ContactStatus::Slip => guided,
         };
-        let held = model.pairs.iter().zip(&evaluation.interfaces).any(|(pair, found)| {
-            (pair.nonmortar.body == k || pair.mortar.body == k) && found.sites.iter().any(|s| holds(s.status))
-        });
+        let held = evaluation.statuses_of(model, k).any(holds);
         if held {
             continue;
         }
@@ -207,11 +200,7 @@ fn hint(model: &Model, evaluation: &Evaluation) -> String {
         let mut motions = model.motions.iter().filter(|m| m.body == k).peekable();
         motions.peek().is_some() && motions.all(|m| matches!(m.control, Control::Force(_)))
     };
-    let sticks = |k: usize| {
-        let pairs = model.pairs.iter().zip(&evaluation.interfaces);
-        let of_body = |(pair, _): &(&Pair, _)| pair.nonmortar.body == k || pair.mortar.body == k;
-        pairs.filter(of_body).any(|(_, found)| found.sites.iter().any(|s| s.status == ContactStatus::Stick))
-    };
+    let sticks = |k: usize| evaluation.statuses_of(model, k).any(|status| status == ContactStatus::Stick);
     match (0..model.bodies.len()).find(|&k| free(k) && !sticks(k)) {
         Some(k) => format!(
             "; body `{}` is held by forces and contact alone and sticks nowhere: friction may be too weak for an equilibrium",

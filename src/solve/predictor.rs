@@ -1,7 +1,7 @@
 //! First guess of a step: driven bodies move as rigid bodies, everything else as in the last step.
 
 use crate::geometry::Point;
-use crate::model::{ContactStatus, Control, Model, Pair, State, Trend, evaluate};
+use crate::model::{ContactStatus, Control, Evaluation, Model, State, Trend, evaluate};
 
 /// Overlap with which a landing body is set down, in element lengths.
 const LANDING: f64 = 0.02;
@@ -45,44 +45,38 @@ fn extrapolate(model: &Model, start: &State, time: f64, trend: &Trend, parabola:
     trial
 }
 
-/// Moves bodies that are held only by forces and contact, and touch nothing, along their load until they touch.
+/// Moves bodies under given forces that touch nothing along their load until they touch, and evaluates the result; `None`
+/// where a body is turned inside out.
 ///
 /// The smallest gap is never more than the way to go, so moving by it cannot pass through the counterpart.
-fn land(model: &Model, start: &State, trial: &mut State) {
-    for (k, load) in loads(model, trial.time) {
-        let Some(direction) = load.try_normalize(0.0) else { continue };
+fn land(model: &Model, start: &State, trial: &mut State) -> Option<Evaluation> {
+    let mut found = evaluate(model, start, trial, false)?;
+    for (k, body) in model.bodies.iter().enumerate() {
+        let Some(direction) = load(model, k, trial.time).try_normalize(0.0) else { continue };
         for _ in 0..MAX_APPROACHES {
-            let Some(found) = evaluate(model, start, trial, false) else { break };
-            let pairs = || {
-                let of_body = |pair: &Pair| pair.nonmortar.body == k || pair.mortar.body == k;
-                model.pairs.iter().zip(&found.interfaces).filter(move |(pair, _)| of_body(pair))
-            };
-            let touches = pairs().any(|(_, i)| i.sites.iter().any(|s| s.status != ContactStatus::Open));
-            let gap = pairs().fold(f64::INFINITY, |m, (_, i)| m.min(i.smallest_gap));
+            let touches = found.statuses_of(model, k).any(|status| status != ContactStatus::Open);
+            let gap = found.interfaces_of(model, k).fold(f64::INFINITY, |m, i| m.min(i.smallest_gap));
             if touches || !gap.is_finite() {
                 break;
             }
             let shift = direction * (gap.max(0.0) + LANDING * model.element_size);
-            trial.u[model.bodies[k].nodes()].iter_mut().for_each(|u| *u += shift);
+            trial.u[body.nodes()].iter_mut().for_each(|u| *u += shift);
+            trial.prescribe(model, trial.time);
+            found = evaluate(model, start, trial, false)?;
         }
     }
-    trial.prescribe(model, trial.time);
+    Some(found)
 }
 
-/// Resultant of the given forces on each body that has any.
-fn loads(model: &Model, time: f64) -> Vec<(usize, Point)> {
-    let mut loads: Vec<(usize, Point)> = Vec::new();
-    for motion in &model.motions {
+/// Resultant of the given forces on a body.
+fn load(model: &Model, body: usize, time: f64) -> Point {
+    let mut load = Point::zeros();
+    for motion in model.motions.iter().filter(|m| m.body == body) {
         if let Control::Force(table) = &motion.control {
-            if loads.last().is_none_or(|(k, _)| *k != motion.body) {
-                loads.push((motion.body, Point::zeros()));
-            }
-            if let Some((_, load)) = loads.last_mut() {
-                load[motion.component] += table.at(time);
-            }
+            load[motion.component] += table.at(time);
         }
     }
-    loads
+    load
 }
 
 /// Guesses for the end of a step, the one with the smallest residual first; those that turn a body inside out are left
@@ -95,12 +89,8 @@ pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<State> {
             guesses.push(extrapolate(model, start, time, trend, true));
         }
     }
-    guesses.iter_mut().for_each(|trial| land(model, start, trial));
-    let size = |trial: &State| {
-        evaluate(model, start, trial, false).map(|found| found.residual.iter().map(|v| v * v).sum::<f64>())
-    };
-    let mut judged: Vec<(f64, State)> =
-        guesses.into_iter().filter_map(|trial| size(&trial).map(|size| (size, trial))).collect();
+    let judge = |mut trial: State| land(model, start, &mut trial).map(|found| (found.norm(), trial));
+    let mut judged: Vec<(f64, State)> = guesses.into_iter().filter_map(judge).collect();
     judged.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     judged.into_iter().map(|(_, trial)| trial).collect()
 }
