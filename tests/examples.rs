@@ -86,7 +86,7 @@ fn single_asperity_shows_more_friction_than_its_law_and_then_less() {
     let end = &history[75];
     assert!(end.strain_energy.abs() < 1e-12, "apart again: {}", end.strain_energy);
     let open = (end.external_work - end.dissipated) / end.dissipated;
-    assert!(open.abs() < 0.03, "work against dissipation at 76 steps: {open}");
+    assert!(open.abs() < 0.02, "work against dissipation at 76 steps: {open}");
     for record in &history {
         let lack = (0..2).map(|c| (record.force[c] - record.reaction_base[c]).abs()).fold(0.0, f64::max);
         assert!(lack < 1e-8, "driven and base reaction differ by {lack}");
@@ -109,7 +109,7 @@ fn multi_asperity_never_loses_contact_and_repeats_itself() {
     assert!((late.force[1] / early.force[1] - 1.0).abs() < 0.1, "{early:?} {late:?}");
     let work = late.external_work - early.external_work;
     let kept = late.strain_energy - early.strain_energy + late.dissipated - early.dissipated;
-    assert!((work / kept - 1.0).abs() < 0.1, "work {work}, stored and dissipated {kept}");
+    assert!((work / kept - 1.0).abs() < 0.05, "work {work}, stored and dissipated {kept}");
 }
 
 #[test]
