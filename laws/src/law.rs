@@ -5,7 +5,7 @@ use crate::{
     info::Unit,
     registry::LawError,
 };
-use std::fmt::Debug;
+use std::{borrow::Cow, fmt::Debug};
 
 /// A friction law at one contact point. Immutable: whatever it remembers is in its internal variables, which the engine owns.
 ///
@@ -78,11 +78,18 @@ impl Response {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     /// Column name in the output.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Physical dimension.
     pub unit: Unit,
     /// Value before the first contact.
     pub initial: f64,
+}
+
+impl Variable {
+    /// A variable with its name, dimension and value before the first contact.
+    pub fn new(name: impl Into<Cow<'static, str>>, unit: Unit, initial: f64) -> Self {
+        Self { name: name.into(), unit, initial }
+    }
 }
 
 /// What a law is told about one contact point and one step.

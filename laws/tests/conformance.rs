@@ -47,7 +47,7 @@ macro_rules! law {
 }
 
 fn state(unit: Unit) -> Variable {
-    Variable { name: "z", unit, initial: 0.0 }
+    Variable::new("z", unit, 0.0)
 }
 
 fn caught(law: &dyn FrictionLaw, property: &str) {

@@ -18,7 +18,7 @@ pub(super) fn documentation(law: &dyn FrictionLaw, info: &LawInfo) -> Result<(),
     let declared: BTreeSet<_> = info.parameters.iter().map(|p| p.name).collect();
     let present: BTreeSet<_> = table.keys().map(String::as_str).filter(|key| *key != "type").chain(optional).collect();
     ensure(declared == present, || format!("parameters declared {declared:?}, serialised {present:?}"))?;
-    let names: BTreeSet<_> = law.variables().iter().map(|v| v.name).collect();
+    let names: BTreeSet<_> = law.variables().into_iter().map(|v| v.name).collect();
     ensure(names.len() == law.variables().len(), || "two internal variables of one name".into())?;
     validate(law).map_err(|error| error.to_string())?;
     let found = kind(&ask(law, &InterfacePoint::new(1.0, 0.0, 1.0), &initial(law)).response);
