@@ -3,7 +3,7 @@
 mod support;
 
 use asperity::bulk::NeoHookean;
-use asperity::contact::{Projection, Sites};
+use asperity::contact::{Projection, Sites, Tangent};
 use asperity::geometry::{Edge, Patch, Point};
 use asperity::laws::builtin::Frictionless;
 use asperity::math::SparseLu;
@@ -182,7 +182,7 @@ fn edge_length(lower: &Patch, upper: &Patch) -> f64 {
     builder.body("lower", body(lower)).and_then(|b| b.body("upper", body(upper))).expect("bodies").contact(pair);
     let model = builder.build().expect("a valid model");
     let state = State::initial(&model);
-    let evaluation = evaluate(&model, &state, &state, false).expect("admissible");
+    let evaluation = evaluate(&model, &state, &state, Tangent::None).expect("admissible");
     evaluation.interfaces[0].sites.iter().map(|s| s.weight).sum()
 }
 
@@ -203,9 +203,9 @@ proptest! {
         let model = pass(&Pass { sites: Some(sites), projection: Some(projection), ..climb() });
         let (start, trial) = arbitrary(&model, 0.9, seed);
         let angle = f64::to_radians(angle);
-        let still = evaluate(&model, &start, &trial, false).expect("admissible");
+        let still = evaluate(&model, &start, &trial, Tangent::None).expect("admissible");
         let (start, trial) = (rotated(&model, &start, before * angle), rotated(&model, &trial, angle));
-        let turned = evaluate(&model, &start, &trial, false).expect("admissible");
+        let turned = evaluate(&model, &start, &trial, Tangent::None).expect("admissible");
         let worst = objectivity(&still, &turned, angle);
         prop_assert!(worst < 1e-12, "{worst:e} at {angle} rad, start at {} rad", before * angle);
     }
@@ -217,7 +217,7 @@ proptest! {
         let setup = Pass { sites: Some(sites), projection: Some(projection), r: 10f64.powf(r), to: 0.2, ..climb() };
         let model = pass(&setup);
         let (start, trial) = arbitrary(&model, time, seed);
-        let evaluation = evaluate(&model, &start, &trial, false).expect("admissible");
+        let evaluation = evaluate(&model, &start, &trial, Tangent::None).expect("admissible");
         let found = record(&model, &trial, &evaluation);
         prop_assert!(found.contact_length > 0.0);
         prop_assert!(found.force_imbalance <= 1e-13 && found.moment_imbalance <= 1e-13, "{found:?}");

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use asperity::bulk::{LinearElastic, Material, NeoHookean};
-use asperity::contact::{ContactStatus, Integration, Sites};
+use asperity::contact::{ContactStatus, Integration, Sites, Tangent};
 use asperity::geometry::shapes::{AnnulusSector, Nurbs};
 use asperity::geometry::{BasisSpec, Edge, Patch, Point, ShapeSpec, build};
 use asperity::laws::builtin::Coulomb;
@@ -114,12 +114,12 @@ fn solve(model: &Model, steps: usize) -> (State, Evaluation) {
         let found = solve_step(model, &state, time, &mut solver, &AtomicBool::new(false), &mut 0);
         let mut trial = found.unwrap_or_else(|e| panic!("step {step}: {e}")).state;
         for _ in 0..12 {
-            let evaluation = evaluate(model, &state, &trial, true).expect("admissible");
+            let evaluation = evaluate(model, &state, &trial, Tangent::Exact).expect("admissible");
             let right: Vec<f64> = evaluation.residual.iter().map(|v| -v).collect();
             let increment = solver.solve(evaluation.system.as_ref().expect("tangent"), &right).expect("solvable");
             trial.advance(model, &increment, 1.0);
         }
-        let end = evaluate(model, &state, &trial, false).expect("admissible");
+        let end = evaluate(model, &state, &trial, Tangent::None).expect("admissible");
         for (pair, interface) in trial.pairs.iter_mut().zip(&end.interfaces) {
             pair.sites.clone_from(&interface.memory); // of the polished state, not of the one before
         }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use asperity::contact::{ContactStatus, Integration, Projection, Sites};
+use asperity::contact::{ContactStatus, Integration, Projection, Sites, Tangent};
 use asperity::model::{Model, State, evaluate};
 use support::{Pass, pass};
 
@@ -26,13 +26,13 @@ fn touching(model: &Model, time: f64, ripple: f64) -> (State, State) {
 fn error(model: &Model, start: &State, trial: &State, seed: usize) -> (f64, Vec<ContactStatus>) {
     let direction: Vec<f64> =
         (0..model.unknowns()).map(|i| ((i * 7919 + seed * 104_729) % 1009) as f64 / 504.5 - 1.0).collect();
-    let here = evaluate(model, start, trial, true).expect("admissible");
+    let here = evaluate(model, start, trial, Tangent::Exact).expect("admissible");
     let product = here.system.as_ref().expect("with tangent").assemble().times(&direction);
     let step = 1e-6 * model.element_size;
     let moved = |factor: f64| {
         let mut state = trial.clone();
         state.advance(model, &direction, factor);
-        evaluate(model, start, &state, false).expect("admissible")
+        evaluate(model, start, &state, Tangent::None).expect("admissible")
     };
     let (plus, minus) = (moved(step), moved(-step));
     let status = |e: &asperity::model::Evaluation| -> Vec<ContactStatus> {
@@ -109,7 +109,7 @@ fn frictionless_tangent_is_symmetric() {
             let model = pass(&setup);
             let (start, trial) = touching(&model, 0.45, 0.003);
             let matrix =
-                evaluate(&model, &start, &trial, true).expect("admissible").system.expect("tangent").assemble();
+                evaluate(&model, &start, &trial, Tangent::Exact).expect("admissible").system.expect("tangent").assemble();
             let largest = matrix.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             for j in 0..matrix.pattern.n {
                 for k in matrix.pattern.columns[j]..matrix.pattern.columns[j + 1] {

@@ -4,7 +4,7 @@ use crate::geometry::Point;
 use crate::math::{Triplets, Vec2};
 
 use super::integration::QuadraturePoint;
-use super::interface::{ContactStatus, InterfaceForces, InterfaceTrial};
+use super::interface::{ContactStatus, InterfaceForces, InterfaceTrial, Tangent};
 use super::kinematics::{SLOTS, Slots};
 use super::point::{Curves, PointState, congruence};
 use super::sites::SiteState;
@@ -65,7 +65,7 @@ struct SiteRows {
 
 impl Assembly<'_> {
     /// Evaluates the sums.
-    pub fn forces(&self, trial: &InterfaceTrial, tangent: bool) -> InterfaceForces {
+    pub fn forces(&self, trial: &InterfaceTrial, tangent: Tangent) -> InterfaceForces {
         let nodes = trial.at.nonmortar.len() + trial.at.mortar.len();
         let mut out = InterfaceForces {
             forces: vec![Point::zeros(); nodes],
@@ -76,7 +76,7 @@ impl Assembly<'_> {
         let loads = self.point_loads();
         self.add_forces(&loads, trial, &mut out);
         self.add_multiplier_rows(&mut out);
-        if tangent {
+        if tangent != Tangent::None {
             self.add_geometric_tangent(&loads, &mut out.tangent);
             self.add_site_tangents(nodes, &mut out.tangent);
         }

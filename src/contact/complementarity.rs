@@ -45,6 +45,8 @@ pub struct SiteInput<'a> {
     pub dt: f64,
     /// Position, for laws that vary in space.
     pub position: [f64; 2],
+    /// Leave out the falling slope of the law, see [`super::Tangent::Lagged`].
+    pub lagged: bool,
     /// Internal variables at the start of the step.
     pub old: &'a [f64],
 }
@@ -68,6 +70,8 @@ pub struct SiteAnswer {
     pub dq_ds: f64,
     /// `dq^/dJ`.
     pub dq_dstretch: f64,
+    /// `max(0, -dq^/ds)` of the law, also where the tangent is lagged.
+    pub weakening: f64,
     /// Open, stick or slip.
     pub status: ContactStatus,
     /// Deflection at the end of the step.
@@ -89,6 +93,7 @@ pub fn complementarity(law: Option<&dyn FrictionLaw>, site: &SiteInput) -> SiteA
         dq_dq: 0.0,
         dq_ds: 0.0,
         dq_dstretch: 0.0,
+        weakening: 0.0,
         status: if open { ContactStatus::Open } else { ContactStatus::Slip },
         deflection: 0.0,
         variables: site.old.to_vec(),
@@ -134,6 +139,8 @@ fn rub(law: &dyn FrictionLaw, site: &SiteInput, answer: &mut SiteAnswer) {
 fn set_direct(answer: &mut SiteAnswer, site: &SiteInput, value: f64, [d_pressure, d_slip]: [f64; 2]) {
     answer.q = site.stretch * value;
     answer.dq_dp = d_pressure;
-    answer.dq_ds = site.stretch * d_slip;
+    let slope = site.stretch * d_slip;
+    answer.dq_ds = if site.lagged { slope.max(0.0) } else { slope };
+    answer.weakening = (-slope).max(0.0);
     answer.dq_dstretch = value - answer.p / site.stretch * d_pressure;
 }

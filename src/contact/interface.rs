@@ -34,6 +34,18 @@ pub enum Integration {
     Segment,
 }
 
+/// Derivative that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tangent {
+    /// None: forces only.
+    None,
+    /// The consistent one.
+    Exact,
+    /// Consistent but for the slope of the law in the slip where friction falls as the slip grows, which is left out (the bound
+    /// is then lagged from one iteration to the next). Converges linearly, but also where the exact one does not.
+    Lagged,
+}
+
 /// State of a site.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactStatus {
@@ -129,6 +141,8 @@ pub struct SiteRecord {
     pub stretch: f64,
     /// Internal variables of the law at the end of the step.
     pub variables: Vec<f64>,
+    /// Fall of the traction with the slip of the step, `max(0, -d|q|/d|s|)` (nominal stress over length).
+    pub weakening: f64,
 }
 
 /// Forces, multiplier rows and tangent of one contact pair. Local unknowns are numbered: control points of the
@@ -171,6 +185,9 @@ pub trait ContactDiscretization: Debug + Send + Sync {
     fn augmentation(&self) -> f64;
     /// Names of the internal variables of one site.
     fn variable_names(&self) -> Vec<String>;
+    /// Longest time step that the law accepts at the closed sites found, infinite without opinion; `memory` is that of the
+    /// start of the step of length `dt`.
+    fn suggested_step(&self, memory: &[SiteMemory], found: &InterfaceForces, dt: f64) -> f64;
     /// Forces and, where asked for, the tangent.
-    fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: bool) -> InterfaceForces;
+    fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: Tangent) -> InterfaceForces;
 }

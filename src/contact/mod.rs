@@ -14,7 +14,7 @@ mod slip;
 pub use complementarity::{SiteAnswer, SiteInput, complementarity};
 pub use interface::{
     Configuration, ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial,
-    Projection, SiteMemory, SiteRecord, Sites,
+    Projection, SiteMemory, SiteRecord, Sites, Tangent,
 };
 pub use kinematics::{Frame, Orientation, SLOTS, SlotMatrix, Slots};
 pub use mortar::{Mortar, Numerics};

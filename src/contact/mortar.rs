@@ -12,7 +12,7 @@
 
 use std::sync::Arc;
 
-use asperity_laws::FrictionLaw;
+use asperity_laws::{FrictionLaw, InterfacePoint};
 
 use crate::geometry::{Basis, Curve};
 use crate::math::{GaussRule, gauss};
@@ -21,7 +21,8 @@ use super::assembly::Assembly;
 use super::complementarity::{SiteInput, complementarity};
 use super::integration::{EdgeFunctions, QuadraturePoint, mortar_cuts};
 use super::interface::{
-    ContactDiscretization, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection, Sites,
+    ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection,
+    SiteMemory, Sites, Tangent,
 };
 use super::kinematics::Orientation;
 use super::point::{Curves, PointState};
@@ -119,7 +120,7 @@ impl Mortar {
         (index, sites): (usize, usize),
         points: &[QuadraturePoint],
         states: &[Option<PointState>],
-        (start, trial): (&InterfaceStart, &InterfaceTrial),
+        (start, trial, tangent): (&InterfaceStart, &InterfaceTrial, Tangent),
     ) -> SiteState {
         let (mut weight, mut gap, mut slip, mut stretch, mut r) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let mut position = [0.0; 2];
@@ -154,6 +155,7 @@ impl Mortar {
             dt: trial.dt,
             position: position.map(mean),
             deflection: memory.map_or(0.0, |m| m.deflection),
+            lagged: tangent == Tangent::Lagged,
             old: memory.map_or(&self.variables, |m| &m.variables),
         };
         let answer = complementarity(self.law.as_deref(), &input);
@@ -192,7 +194,18 @@ impl ContactDiscretization for Mortar {
         self.law.iter().flat_map(|law| law.variables()).map(|v| v.name.to_string()).collect()
     }
 
-    fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: bool) -> InterfaceForces {
+    fn suggested_step(&self, memory: &[SiteMemory], found: &InterfaceForces, dt: f64) -> f64 {
+        let Some(law) = &self.law else { return f64::INFINITY };
+        let closed = found.sites.iter().enumerate().filter(|(_, site)| site.status != ContactStatus::Open);
+        let wanted = closed.filter_map(|(index, site)| {
+            let old = recall(memory, index, found.sites.len(), site.arc).map_or(&self.variables, |m| &m.variables);
+            let position = [site.x.x, site.x.y];
+            law.suggested_step(&InterfacePoint { position, ..InterfacePoint::new(site.pressure, site.slip, dt) }, old)
+        });
+        wanted.fold(f64::INFINITY, f64::min)
+    }
+
+    fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: Tangent) -> InterfaceForces {
         let curves = Curves {
             nonmortar: &self.nonmortar,
             mortar: &self.mortar,
@@ -212,13 +225,13 @@ impl ContactDiscretization for Mortar {
         let old = Target::new(&self.mortar, start.at.mortar, projection, self.reach);
         let new = Target::new(&self.mortar, trial.at.mortar, projection, self.reach);
         let states: Vec<Option<PointState>> =
-            points.iter().map(|p| curves.point(p, (&old, start), (&new, trial), tangent)).collect();
+            points.iter().map(|p| curves.point(p, (&old, start), (&new, trial), tangent != Tangent::None)).collect();
         let sites = group(points, self.numerics.sites, self.multipliers());
         let count = sites.len();
         let sites: Vec<SiteState> = sites
             .into_iter()
             .enumerate()
-            .map(|(index, site)| self.evaluate_site(site, (index, count), points, &states, (start, trial)))
+            .map(|(index, site)| self.evaluate_site(site, (index, count), points, &states, (start, trial, tangent)))
             .collect();
         let multipliers = self.multipliers();
         Assembly { curves, points, states: &states, sites: &sites, multipliers, rubs: self.rubs() }

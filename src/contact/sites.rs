@@ -117,6 +117,7 @@ impl SiteState {
             weight: self.weight,
             stretch: self.stretch,
             variables: answer.variables.clone(),
+            weakening: answer.weakening,
         }
     }
 }

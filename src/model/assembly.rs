@@ -1,7 +1,7 @@
 //! `evaluate(model, start, trial)`: residual and tangent, a pure function of its arguments.
 
 use crate::contact::{
-    Configuration, ContactDiscretization, ContactStatus, InterfaceForces, InterfaceStart, InterfaceTrial,
+    Configuration, ContactDiscretization, ContactStatus, InterfaceForces, InterfaceStart, InterfaceTrial, Tangent,
 };
 use crate::geometry::Point;
 use crate::math::{SparseMatrix, System, Triplets};
@@ -45,14 +45,15 @@ impl Evaluation {
 }
 
 /// Evaluates a trial state for a step that starts at `start`. `None` where a body is turned inside out (`det F <= 0`).
-pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: bool) -> Option<Evaluation> {
+pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -> Option<Evaluation> {
     let mut forces = vec![Point::zeros(); model.nodes()];
-    let mut values = vec![0.0; if tangent { model.equations.pattern.rows.len() } else { 0 }];
+    let wanted = tangent != Tangent::None;
+    let mut values = vec![0.0; if wanted { model.equations.pattern.rows.len() } else { 0 }];
     let mut strain_energy = 0.0;
     for (k, body) in model.bodies.iter().enumerate() {
         if let BodyKind::Deformable { elements, material, .. } = &body.kind {
             let places = &model.equations.places[k];
-            strain_energy += elements.integrate(material.as_ref(), &trial.u[body.nodes()], tangent, |e, element| {
+            strain_energy += elements.integrate(material.as_ref(), &trial.u[body.nodes()], wanted, |e, element| {
                 for (&a, f) in element.nodes.iter().zip(element.forces) {
                     forces[body.offset + a] += f;
                 }
@@ -75,7 +76,7 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: bool) -> O
         }
     }
     let residual = residual(model, &forces, &interfaces, trial.time);
-    let system = tangent.then(|| System {
+    let system = wanted.then(|| System {
         n: model.unknowns(),
         bulk: SparseMatrix { pattern: model.equations.pattern.clone(), values },
         interface: interface_entries(model, &interfaces),
@@ -83,7 +84,13 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: bool) -> O
     Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale })
 }
 
-fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State, tangent: bool) -> InterfaceForces {
+/// Longest step that the laws of all pairs accept at the end of the step found; infinite without opinion.
+pub fn suggested_step(model: &Model, start: &State, found: &Evaluation, dt: f64) -> f64 {
+    let pairs = model.pairs.iter().zip(&start.pairs).zip(&found.interfaces);
+    pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt)).fold(f64::INFINITY, f64::min)
+}
+
+fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State, tangent: Tangent) -> InterfaceForces {
     let place = |side: &Side, state: &State| -> Vec<Point> {
         let body = &model.bodies[side.body];
         side.nodes.iter().map(|&i| body.points[i - body.offset] + state.u[i]).collect()

@@ -8,8 +8,8 @@ mod motion;
 mod record;
 mod state;
 
-pub use crate::contact::ContactStatus;
-pub use assembly::{Evaluation, evaluate};
+pub use crate::contact::{ContactStatus, Tangent};
+pub use assembly::{Evaluation, evaluate, suggested_step};
 pub use body::{Body, BodyKind};
 pub use build::{BodySpec, Builder, ModelError, PairSpec};
 pub use equations::{Dof, Equations};

@@ -49,6 +49,9 @@ pub struct Record {
     pub force_imbalance: f64,
     /// The same for their moment.
     pub moment_imbalance: f64,
+    /// Share of the bodies' tangential stiffness that friction takes away by falling with the slip rate, see
+    /// `solve::weakening`; 0 where it does not matter.
+    pub weakening: f64,
 }
 
 /// One row of `interface.csv`.

@@ -11,7 +11,7 @@ use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
 use crate::contact;
 use crate::geometry::{self, BSpline, Basis, Edge, GeometryError, Point};
-use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Table, evaluate};
+use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Tangent, Table, evaluate};
 
 /// Builds the model of a scene. Files that the scene names (profiles) are looked for in `base_dir`.
 ///
@@ -40,7 +40,7 @@ const LARGEST_OVERLAP: f64 = 0.25;
 /// Bodies that start inside one another farther than any step could repair.
 fn initial_overlap(scene: &Scene, model: &Model) -> Result<(), Issue> {
     let state = State::initial(model);
-    let Some(found) = evaluate(model, &state, &state, false) else { return Ok(()) };
+    let Some(found) = evaluate(model, &state, &state, Tangent::None) else { return Ok(()) };
     for (k, (pair, interface)) in model.pairs.iter().zip(&found.interfaces).enumerate() {
         let extent = |body: usize| {
             let points = &model.bodies[body].points;

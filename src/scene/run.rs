@@ -74,6 +74,7 @@ fn conclusion(report: &RunReport, reached: usize, wall_s: f64) -> Value {
         "counters": {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": outcome.factorisations,
+            "lagged_steps": outcome.lagged,
         },
         "audit": {
             "passed": !report.findings.iter().any(Finding::failed),

@@ -4,10 +4,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::math::LinearSolver;
-use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record};
+use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record, suggested_step};
 
-use super::newton::{StepFailure, solve_step};
+use super::newton::{NewtonReport, StepFailure, solve_step};
 use super::status::{Outcome, Status};
+
+/// A law that suggests a step shorter than this share of the one taken has it repeated.
+const VETO: f64 = 1.0 - 1e-9;
 
 /// Time plan of an analysis.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,33 +48,32 @@ pub fn march<E>(
 ) -> Result<Outcome, E> {
     let nominal = control.end / control.steps as f64;
     let first = (start.time / nominal).round() as usize;
-    let mut outcome =
-        Outcome { status: Status::Done, state: start, iterations: 0, steps: 0, cuts: 0, factorisations: 0 };
-    let mut dt = nominal;
+    let smallest = nominal * 0.5_f64.powi(control.max_cuts as i32);
+    let mut march = March { model, solver, interrupt, nominal, smallest, dt: nominal, outcome: Outcome::at(start) };
     for step in first + 1..=control.steps {
         let clock = Instant::now();
         let target = if step == control.steps { control.end } else { step as f64 * nominal };
-        let before = (outcome.iterations, outcome.cuts);
-        let found = reach(model, target, nominal, control.max_cuts, &mut dt, solver, interrupt, &mut outcome);
-        outcome.factorisations = solver.factorisations();
-        match found {
-            Ok(evaluation) => {
+        let before = (march.outcome.iterations, march.outcome.cuts);
+        match march.reach(target) {
+            Ok(found) => {
+                let outcome = &march.outcome;
                 let record = Record {
                     step,
                     newton_iterations: outcome.iterations - before.0,
                     cuts: outcome.cuts - before.1,
                     wall_s: clock.elapsed().as_secs_f64(),
-                    ..record(model, &outcome.state, &evaluation)
+                    weakening: found.weakening,
+                    ..record(model, &outcome.state, &found.evaluation)
                 };
-                report(StepReport { state: &outcome.state, evaluation: &evaluation, record })?;
+                report(StepReport { state: &outcome.state, evaluation: &found.evaluation, record })?;
             }
             Err(status) => {
-                outcome.status = status;
+                march.outcome.status = status;
                 break;
             }
         }
     }
-    Ok(outcome)
+    Ok(Outcome { factorisations: march.solver.factorisations(), ..march.outcome })
 }
 
 /// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`.
@@ -89,45 +91,73 @@ fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
     wanted
 }
 
-/// Sub-steps up to `target`; `dt` is remembered from one nominal step to the next.
-#[allow(clippy::too_many_arguments)]
-fn reach(
-    model: &Model,
-    target: f64,
+/// A march under way.
+struct March<'a> {
+    model: &'a Model,
+    solver: &'a mut dyn LinearSolver,
+    interrupt: &'a AtomicBool,
     nominal: f64,
-    max_cuts: u32,
-    dt: &mut f64,
-    solver: &mut dyn LinearSolver,
-    interrupt: &AtomicBool,
-    outcome: &mut Outcome,
-) -> Result<Evaluation, Status> {
-    let smallest = nominal * 0.5_f64.powi(max_cuts as i32);
-    loop {
-        let time = outcome.state.time;
-        if interrupt.load(Ordering::Relaxed) {
-            return Err(Status::Interrupted { time });
-        }
-        // A remainder below half a sub-step joins the last one.
-        let left = target - time;
-        let wanted = if left <= 1.5 * *dt { target } else { time + *dt };
-        let next = within_stride(model, time, wanted);
-        match solve_step(model, &outcome.state, next, solver, interrupt, &mut outcome.iterations) {
-            Ok(done) => {
-                outcome.state = done.state;
-                outcome.steps += 1;
-                *dt = (2.0 * *dt).min(nominal);
-                if next == target {
-                    return Ok(done.evaluation);
+    smallest: f64,
+    /// Step to be tried next; remembered from one nominal step to the next.
+    dt: f64,
+    outcome: Outcome,
+}
+
+/// End of a nominal step.
+struct Reached {
+    evaluation: Evaluation,
+    /// Largest [`super::NewtonReport::weakening`] of its sub-steps.
+    weakening: f64,
+}
+
+impl March<'_> {
+    /// Sub-steps up to `target`.
+    fn reach(&mut self, target: f64) -> Result<Reached, Status> {
+        let mut weakening = 0.0_f64;
+        loop {
+            let time = self.outcome.state.time;
+            if self.interrupt.load(Ordering::Relaxed) {
+                return Err(Status::Interrupted { time });
+            }
+            // A remainder below half a sub-step joins the last one.
+            let left = target - time;
+            let wanted = if left <= 1.5 * self.dt { target } else { time + self.dt };
+            let next = within_stride(self.model, time, wanted);
+            match self.step(next) {
+                Ok(done) => {
+                    weakening = weakening.max(done.weakening);
+                    if next == target {
+                        return Ok(Reached { evaluation: done.evaluation, weakening });
+                    }
+                }
+                Err(StepFailure::Interrupted) => return Err(Status::Interrupted { time }),
+                Err(failure) => {
+                    self.outcome.cuts += 1;
+                    self.dt = match failure {
+                        StepFailure::Vetoed { step, .. } => step,
+                        _ => 0.5 * (next - time),
+                    };
+                    if self.dt < self.smallest {
+                        return Err(Status::NotConverged { time, reason: failure.to_string() });
+                    }
                 }
             }
-            Err(StepFailure::Interrupted) => return Err(Status::Interrupted { time }),
-            Err(failure) => {
-                outcome.cuts += 1;
-                *dt = 0.5 * (next - time);
-                if *dt < smallest {
-                    return Err(Status::NotConverged { time, reason: failure.to_string() });
-                }
-            }
         }
+    }
+
+    /// One step; accepted unless the law finds it too long.
+    fn step(&mut self, next: f64) -> Result<NewtonReport, StepFailure> {
+        let (start, iterations) = (&self.outcome.state, &mut self.outcome.iterations);
+        let mut done = solve_step(self.model, start, next, self.solver, self.interrupt, iterations)?;
+        let dt = next - start.time;
+        let law = suggested_step(self.model, start, &done.evaluation, dt);
+        if law < VETO * dt {
+            return Err(StepFailure::Vetoed { taken: dt, step: law });
+        }
+        self.outcome.steps += 1;
+        self.outcome.lagged += usize::from(done.lagged);
+        self.dt = (2.0 * self.dt).min(self.nominal).min(law);
+        std::mem::swap(&mut self.outcome.state, &mut done.state);
+        Ok(done)
     }
 }

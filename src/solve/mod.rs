@@ -1,9 +1,11 @@
 //! Solving: Newton for one step, and the march through time that cuts and regrows steps.
 
+mod floating;
 mod march;
 mod newton;
 mod predictor;
 mod status;
+pub mod weakening;
 
 pub use march::{Control, StepReport, march};
 pub use newton::{NewtonReport, StepFailure, solve_step};

@@ -2,14 +2,13 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::contact::ContactStatus;
 use crate::math::{LinearSolver, SolveError};
-use crate::model::{Control, Evaluation, Model, State, evaluate};
+use crate::model::{Evaluation, Model, State, Tangent, evaluate};
 
+use super::floating::{hint, support_floating};
 use super::predictor::{guesses, trend};
+use super::weakening::{self, Linearisation};
 
-/// Largest number of iterations from one guess.
-const MAX_ITERATIONS: usize = 20;
 /// Accepted residual relative to the largest nodal force.
 const RELATIVE: f64 = 1e-9;
 /// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
@@ -19,9 +18,6 @@ const ROUND_OFF: f64 = 1e-14;
 const GROWTH: f64 = 1.0 + 1e-6;
 /// Lengths tried when a full step is no good: 1, 1/2, 1/4, ...
 const HALVINGS: i32 = 7;
-
-/// Smallest spring of a floating body in units of `E`.
-const FAINTEST_SPRING: f64 = 1e-10;
 
 /// Why a step was thrown away.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,6 +40,14 @@ pub enum StepFailure {
     /// The linear system could not be solved.
     #[error("{0}")]
     Linear(#[from] SolveError),
+    /// Converged, but too long for the friction law.
+    #[error("the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps")]
+    Vetoed {
+        /// Step that converged.
+        taken: f64,
+        /// Longest step that the law accepts.
+        step: f64,
+    },
     /// Stopped from outside.
     #[error("interrupted")]
     Interrupted,
@@ -59,10 +63,16 @@ pub struct NewtonReport {
     pub iterations: usize,
     /// Largest residual entry of every iterate.
     pub residuals: Vec<f64>,
+    /// True where only an iteration with lagged bound found it.
+    pub lagged: bool,
+    /// Share of the bodies' tangential stiffness that friction takes away by falling with the slip rate; 0 where that is
+    /// far from mattering. At 1 the quasi-static solution jumps.
+    pub weakening: f64,
 }
 
 /// Solves the step from `start` to `time`, from the best of the guesses and, where Newton fails, from the next.
-/// `iterations` counts the linear solves, failed attempts included.
+/// A law that weakens with the slip rate has a second way, see [`Linearisation`]: it is taken where the exact tangent
+/// fails, and where it ends in an unstable equilibrium. `iterations` counts the linear solves, failed attempts included.
 ///
 /// # Errors
 /// The first failure; `start` is untouched.
@@ -74,159 +84,140 @@ pub fn solve_step(
     interrupt: &AtomicBool,
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
-    let mut failure = StepFailure::Inverted(0);
-    for (k, guess) in guesses(model, start, time).into_iter().enumerate() {
-        match newton(model, start, guess, solver, interrupt, iterations) {
+    let mut step = Step { model, start, solver, interrupt, iterations, weakens: false };
+    let mut failure = None;
+    for guess in guesses(model, start, time) {
+        match step.attempt(guess) {
             Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
-            Err(error) if k == 0 => failure = error,
-            Err(_) => {}
+            Err(error) => failure = failure.or(Some(error)),
             done => return done,
         }
     }
-    Err(failure)
+    Err(failure.unwrap_or(StepFailure::Inverted(0)))
 }
 
-/// Newton's method from one guess.
-fn newton(
-    model: &Model,
-    start: &State,
-    mut trial: State,
-    solver: &mut dyn LinearSolver,
-    interrupt: &AtomicBool,
-    iterations: &mut usize,
-) -> Result<NewtonReport, StepFailure> {
-    let mut evaluation = evaluate(model, start, &trial, true).ok_or(StepFailure::Inverted(0))?;
-    let mut residuals = Vec::new();
-    let floor = ROUND_OFF * model.modulus * model.size();
-    for iteration in 0..=MAX_ITERATIONS {
-        let size = evaluation.residual.iter().fold(0.0_f64, |m, v| if v.is_nan() { f64::NAN } else { m.max(v.abs()) });
-        residuals.push(size);
-        if size <= RELATIVE * evaluation.force_scale + floor {
-            let state = commit(model, start, trial, &evaluation);
-            return Ok(NewtonReport { state, evaluation, iterations: iteration, residuals });
+/// A step being solved.
+struct Step<'a> {
+    model: &'a Model,
+    start: &'a State,
+    solver: &'a mut dyn LinearSolver,
+    interrupt: &'a AtomicBool,
+    iterations: &'a mut usize,
+    /// Whether friction fell with the slip rate at some iterate.
+    weakens: bool,
+}
+
+impl Step<'_> {
+    /// From one guess: with the exact tangent, then, for a law that weakens, with lagged bound where that failed or found
+    /// an unstable equilibrium.
+    fn attempt(&mut self, guess: State) -> Result<NewtonReport, StepFailure> {
+        let exact = self.newton(guess.clone(), Linearisation::exact());
+        let stable = exact.as_ref().is_ok_and(|found| found.weakening < 1.0);
+        if stable || !self.weakens || matches!(exact, Err(StepFailure::Interrupted)) {
+            return exact;
         }
-        if iteration == MAX_ITERATIONS || size.is_nan() {
-            let residual = size / evaluation.force_scale;
-            let hint = hint(model, &evaluation);
-            return Err(StepFailure::Iterations { iterations: iteration, residual, hint });
+        match (exact, self.newton(guess, Linearisation::lagged())) {
+            (_, Ok(lagged)) => Ok(NewtonReport { lagged: true, ..lagged }),
+            (Ok(unstable), Err(_)) => Ok(unstable),
+            (Err(_), failure) => failure,
         }
-        if interrupt.load(Ordering::Relaxed) {
-            return Err(StepFailure::Interrupted);
-        }
-        *iterations += 1;
-        let increment = increment(model, &mut evaluation, solver)?;
-        (trial, evaluation) =
-            update(model, start, &trial, &increment, evaluation.norm()).ok_or(StepFailure::Inverted(iteration + 1))?;
     }
-    unreachable!("the last iteration returns")
-}
 
-/// The Newton increment; takes the system out of the evaluation.
-fn increment(
-    model: &Model,
-    evaluation: &mut Evaluation,
-    solver: &mut dyn LinearSolver,
-) -> Result<Vec<f64>, SolveError> {
-    let right: Vec<f64> = evaluation.residual.iter().map(|v| -v).collect();
-    let mut system = evaluation.system.take().expect("evaluated with tangent");
-    support_floating(model, evaluation, &mut system.interface);
-    solver.solve(&system, &right)
-}
-
-/// Adds the increment. A step along which the residual grows beyond [`GROWTH`] is halved a few times and the best length
-/// taken (the residual of a semismooth system need not fall, so that is no failure); one that turns a body inside out
-/// is halved until it does not.
-fn update(model: &Model, start: &State, trial: &State, increment: &[f64], before: f64) -> Option<(State, Evaluation)> {
-    let moved = |factor: f64| {
-        let mut next = trial.clone();
-        next.advance(model, increment, factor);
-        next
-    };
-    let full = moved(1.0);
-    if let Some(evaluation) = evaluate(model, start, &full, true)
-        && evaluation.norm() <= GROWTH * before
-    {
-        return Some((full, evaluation));
-    }
-    let mut best: Option<(f64, f64)> = None;
-    for k in 0..HALVINGS {
-        let factor = 0.5_f64.powi(k);
-        if let Some(size) = evaluate(model, start, &moved(factor), false).as_ref().map(Evaluation::norm) {
-            if best.is_none_or(|(smallest, _)| size < smallest) {
-                best = Some((size, factor));
+    fn newton(&mut self, mut trial: State, mut way: Linearisation) -> Result<NewtonReport, StepFailure> {
+        let model = self.model;
+        let floor = ROUND_OFF * model.modulus * model.size();
+        let mut evaluation = evaluate(model, self.start, &trial, way.tangent).ok_or(StepFailure::Inverted(0))?;
+        let mut residuals = Vec::new();
+        loop {
+            let iteration = residuals.len();
+            let size = largest(&evaluation.residual);
+            residuals.push(size);
+            self.weakens |= weakening::weakens(&evaluation);
+            if size <= RELATIVE * evaluation.force_scale + floor {
+                return Ok(self.converged(trial, evaluation, residuals));
             }
-            if size <= before {
-                break;
+            if iteration == way.most() || size.is_nan() {
+                let residual = size / evaluation.force_scale;
+                let hint = hint(model, &evaluation) + &self.weakening_hint(&trial, &way);
+                return Err(StepFailure::Iterations { iterations: iteration, residual, hint });
             }
+            if self.interrupt.load(Ordering::Relaxed) {
+                return Err(StepFailure::Interrupted);
+            }
+            *self.iterations += 1;
+            let increment = self.increment(&mut evaluation)?;
+            way.choose(size / evaluation.force_scale);
+            (trial, evaluation) = self
+                .update(&trial, &increment, evaluation.norm(), way.tangent)
+                .ok_or(StepFailure::Inverted(iteration + 1))?;
         }
     }
-    let next = moved(best?.1);
-    evaluate(model, start, &next, true).map(|evaluation| (next, evaluation))
-}
 
-/// Springs for bodies that nothing holds at this iterate: those without a prescribed displacement while they touch nothing
-/// or nothing sticks (no stiffness against rigid motion), and load equations of guided bodies that touch nothing. A spring
-/// lets the body travel by about one element length per iteration until it is held. It acts on the increment alone, never
-/// on the solution, and fades with the residual, so that convergence stays quadratic.
-fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut crate::math::Triplets) {
-    for k in 0..model.bodies.len() {
-        let motions = || model.motions.iter().zip(&model.equations.of_motion).filter(|(m, _)| m.body == k);
-        let guided = motions().any(|(m, _)| matches!(m.control, Control::Displacement(_)));
-        let loaded: Vec<usize> = motions().filter_map(|(_, equation)| *equation).collect();
-        if (guided && loaded.is_empty()) || model.bodies[k].is_rigid() && loaded.is_empty() {
-            continue;
-        }
-        let holds = |status: ContactStatus| match status {
-            ContactStatus::Open => false,
-            ContactStatus::Stick => true,
-            ContactStatus::Slip => guided,
+    /// The Newton increment; takes the system out of the evaluation.
+    fn increment(&mut self, evaluation: &mut Evaluation) -> Result<Vec<f64>, SolveError> {
+        let right: Vec<f64> = evaluation.residual.iter().map(|v| -v).collect();
+        let mut system = evaluation.system.take().expect("evaluated with tangent");
+        support_floating(self.model, evaluation, &mut system.interface);
+        self.solver.solve(&system, &right)
+    }
+
+    /// Adds the increment. A step along which the residual grows beyond [`GROWTH`] is halved a few times and the best length
+    /// taken (the residual of a semismooth system need not fall, so that is no failure); one that turns a body inside out
+    /// is halved until it does not. With lagged bound the residual may grow: the iteration contracts in the slip.
+    fn update(&self, trial: &State, increment: &[f64], before: f64, tangent: Tangent) -> Option<(State, Evaluation)> {
+        let moved = |factor: f64| {
+            let mut next = trial.clone();
+            next.advance(self.model, increment, factor);
+            next
         };
-        let held = evaluation.statuses_of(model, k).any(holds);
-        if held {
-            continue;
+        let evaluate = |trial: &State, tangent| evaluate(self.model, self.start, trial, tangent);
+        let full = moved(1.0);
+        if let Some(evaluation) = evaluate(&full, tangent)
+            && (tangent == Tangent::Lagged || evaluation.norm() <= GROWTH * before)
+        {
+            return Some((full, evaluation));
         }
-        let equations = if guided { loaded } else { equations_of(model, k) };
-        let load = equations.iter().fold(0.0_f64, |m, &e| m.max(evaluation.residual[e].abs()));
-        let stiffness = load / (model.element_size * equations.len() as f64);
-        let spring = stiffness.max(FAINTEST_SPRING * model.modulus);
-        entries.extend(equations.into_iter().map(|e| (e, e, spring)));
+        let mut best: Option<(f64, f64)> = None;
+        for k in 0..HALVINGS {
+            let factor = 0.5_f64.powi(k);
+            if let Some(size) = evaluate(&moved(factor), Tangent::None).as_ref().map(Evaluation::norm) {
+                if best.is_none_or(|(smallest, _)| size < smallest) {
+                    best = Some((size, factor));
+                }
+                if size <= before {
+                    break;
+                }
+            }
+        }
+        let next = moved(best?.1);
+        evaluate(&next, tangent).map(|evaluation| (next, evaluation))
+    }
+
+    /// The trial state as the new committed one: internal variables, forces and work.
+    fn converged(&mut self, mut trial: State, evaluation: Evaluation, residuals: Vec<f64>) -> NewtonReport {
+        let share = weakening::share(self.model, self.start, &trial, &evaluation, self.solver);
+        for (pair, found) in trial.pairs.iter_mut().zip(&evaluation.interfaces) {
+            pair.sites.clone_from(&found.memory);
+            trial.ledger.dissipated += found.dissipated;
+        }
+        trial.trend = Some(trend(self.model, self.start, &trial));
+        trial.ledger.settle(self.model, self.start, &trial.u, trial.time, &evaluation);
+        let iterations = residuals.len() - 1;
+        NewtonReport { state: trial, evaluation, iterations, residuals, lagged: false, weakening: share }
+    }
+
+    fn weakening_hint(&mut self, trial: &State, way: &Linearisation) -> String {
+        match way.lags().then(|| weakening::largest(self.model, self.start, trial, self.solver)).flatten() {
+            Some(share) => format!(
+                "; friction falls with the slip rate and takes {share:.2} times the tangential stiffness of the bodies (from 1 on the \
+                 slip jumps, and smaller steps make it worse): take longer steps, a slower drive, or a law with direct effect"
+            ),
+            None => String::new(),
+        }
     }
 }
 
-/// Names a body that only forces and contact hold and that slips wherever it touches: its load may exceed what friction
-/// can carry.
-fn hint(model: &Model, evaluation: &Evaluation) -> String {
-    let free = |k: usize| {
-        let mut motions = model.motions.iter().filter(|m| m.body == k).peekable();
-        motions.peek().is_some() && motions.all(|m| matches!(m.control, Control::Force(_)))
-    };
-    let sticks = |k: usize| evaluation.statuses_of(model, k).any(|status| status == ContactStatus::Stick);
-    match (0..model.bodies.len()).find(|&k| free(k) && !sticks(k)) {
-        Some(k) => format!(
-            "; body `{}` is held by forces and contact alone and sticks nowhere: friction may be too weak for an equilibrium",
-            model.bodies[k].name
-        ),
-        None => String::new(),
-    }
-}
-
-/// Displacement unknowns of a body, each once.
-fn equations_of(model: &Model, body: usize) -> Vec<usize> {
-    let nodes = model.bodies[body].nodes();
-    let mut equations: Vec<usize> =
-        nodes.flat_map(|i| (0..2).filter_map(move |c| model.equations.unknown(i, c))).collect();
-    equations.sort_unstable();
-    equations.dedup();
-    equations
-}
-
-/// The trial state as the new committed one: internal variables, forces and work.
-fn commit(model: &Model, start: &State, mut trial: State, evaluation: &Evaluation) -> State {
-    for (pair, found) in trial.pairs.iter_mut().zip(&evaluation.interfaces) {
-        pair.sites.clone_from(&found.memory);
-        trial.ledger.dissipated += found.dissipated;
-    }
-    trial.trend = Some(trend(model, start, &trial));
-    trial.ledger.settle(model, start, &trial.u, trial.time, evaluation);
-    trial
+/// Largest magnitude; `NaN` if there is one.
+fn largest(residual: &[f64]) -> f64 {
+    residual.iter().fold(0.0_f64, |m, v| if v.is_nan() || m.is_nan() { f64::NAN } else { m.max(v.abs()) })
 }

@@ -1,7 +1,7 @@
 //! First guess of a step: driven bodies move as rigid bodies, everything else as in the last step.
 
 use crate::geometry::Point;
-use crate::model::{ContactStatus, Control, Evaluation, Model, State, Trend, evaluate};
+use crate::model::{ContactStatus, Control, Evaluation, Model, State, Tangent, Trend, evaluate};
 
 /// Overlap with which a landing body is set down, in element lengths.
 const LANDING: f64 = 0.02;
@@ -50,7 +50,7 @@ fn extrapolate(model: &Model, start: &State, time: f64, trend: &Trend, parabola:
 ///
 /// The smallest gap is never more than the way to go, so moving by it cannot pass through the counterpart.
 fn land(model: &Model, start: &State, trial: &mut State) -> Option<Evaluation> {
-    let mut found = evaluate(model, start, trial, false)?;
+    let mut found = evaluate(model, start, trial, Tangent::None)?;
     for (k, body) in model.bodies.iter().enumerate() {
         let Some(direction) = load(model, k, trial.time).try_normalize(0.0) else { continue };
         for _ in 0..MAX_APPROACHES {
@@ -62,7 +62,7 @@ fn land(model: &Model, start: &State, trial: &mut State) -> Option<Evaluation> {
             let shift = direction * (gap.max(0.0) + LANDING * model.element_size);
             trial.u[body.nodes()].iter_mut().for_each(|u| *u += shift);
             trial.prescribe(model, trial.time);
-            found = evaluate(model, start, trial, false)?;
+            found = evaluate(model, start, trial, Tangent::None)?;
         }
     }
     Some(found)

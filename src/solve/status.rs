@@ -36,4 +36,13 @@ pub struct Outcome {
     pub cuts: usize,
     /// Numeric factorisations.
     pub factorisations: usize,
+    /// Steps that only a lagged bound reached: friction falls with the slip rate, see [`super::weakening`].
+    pub lagged: usize,
+}
+
+impl Outcome {
+    /// Nothing done yet.
+    pub fn at(state: State) -> Self {
+        Self { status: Status::Done, state, iterations: 0, steps: 0, cuts: 0, factorisations: 0, lagged: 0 }
+    }
 }

@@ -11,83 +11,8 @@ use serde::{Deserialize, Serialize};
 use crate::model::Record;
 
 use super::expectations::Expectations;
-use super::finding::{Criterion, Finding, Severity, Worst};
-
-use Severity::{Failure, Warning};
-
-/// Sums of a few thousand terms: round-off 1e-16 each, 1e-13 expected.
-const INTERFACE_FORCE: Criterion = Criterion {
-    name: "interface_force",
-    tolerance: 1e-10,
-    severity: Failure,
-    meaning: "resultant of all contact forces over the sum of their magnitudes; more than round-off means that action is \
-              not reaction",
-};
-/// As for the force.
-const INTERFACE_MOMENT: Criterion = Criterion {
-    name: "interface_moment",
-    tolerance: 1e-10,
-    severity: Failure,
-    meaning: "moment of all contact forces over the sum of their magnitudes; more than round-off means that contact \
-              forces turn the bodies",
-};
-/// The solver accepts 1e-9 of the largest nodal force at every control point; hundreds of them add up.
-const DRIVEN_REACTION: Criterion = Criterion {
-    name: "driven_reaction",
-    tolerance: 1e-6,
-    severity: Failure,
-    meaning: "force on the driven body less the reaction of all others, over the peak force; more means that the bodies \
-              are not in equilibrium",
-};
-/// Same origin as for the reaction.
-const FRICTION_IDENTITY: Criterion = Criterion {
-    name: "friction_identity",
-    tolerance: 1e-6,
-    severity: Failure,
-    meaning: "atan(mu_global) - contact_angle less atan(mu) at fully slipping steps, times the force over the peak force; \
-              more means that the friction forces are not those of the law",
-};
-/// Friction work of a step is a sum of non-negative terms.
-const DISSIPATION: Criterion = Criterion {
-    name: "dissipation",
-    tolerance: 1e-9,
-    severity: Failure,
-    meaning: "decrease of the dissipated work in a step over the largest energy; more means that friction drives the slip",
-};
-/// An error of the time steps: the two-asperity problem (mu = 0.3) shows 9.7 % with steps of two elements, 2.9 % with one,
-/// 0.8 % with half an element.
-const ENERGY_BALANCE: Criterion = Criterion {
-    name: "energy_balance",
-    tolerance: 0.02,
-    severity: Warning,
-    meaning: "external work less stored and dissipated energy (what bodies start with set aside), over the largest \
-              energy; more means that the time steps are \
-              too long for the energies, or that a sudden slip released energy: take more `time.steps`",
-};
-/// What the bound on the error of time stepping leaves out: rules of laws with memory, forces that turn within a step.
-const ENERGY_CREATED: Criterion = Criterion {
-    name: "energy_created",
-    tolerance: 0.05,
-    severity: Failure,
-    meaning: "stored and dissipated energy beyond the external work and beyond what the time steps can explain, over the \
-              largest energy; more means that energy comes from nowhere",
-};
-/// Quadrature sites at `r = E/h` overlap by about `p h/E`.
-const PENETRATION: Criterion = Criterion {
-    name: "penetration",
-    tolerance: 0.2,
-    severity: Warning,
-    meaning: "largest penetration over the shortest contact element; more means that the contact is too coarse for its \
-              pressure: take more elements along the contact edges",
-};
-/// A contact that ends by itself has hardly any force left in the step before.
-const CONTACT_LOST: Criterion = Criterion {
-    name: "contact_lost",
-    tolerance: 0.2,
-    severity: Warning,
-    meaning: "force, over the peak force, of a contact that vanished in the next step although it was driven against; more \
-              means that the bodies may have passed through each other or slid off an edge: take more `time.steps`",
-};
+use super::criteria::*;
+use super::finding::{Finding, Worst};
 
 /// Audit of a run, fed with one record after the other.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -109,6 +34,7 @@ pub struct Audit {
     energy_created: Worst,
     penetration: Worst,
     contact_lost: Worst,
+    rate_weakening: Worst,
 }
 
 /// The record before; at rest and without load in the beginning.
@@ -141,6 +67,7 @@ impl Audit {
             energy_created: none,
             penetration: none,
             contact_lost: none,
+            rate_weakening: none,
         }
     }
 
@@ -193,6 +120,7 @@ impl Audit {
         let (step, touching) = (record.step, record.contact_length > 0.0);
         if touching {
             self.penetration.take(step, record.penetration_max);
+            self.rate_weakening.take(step, record.weakening);
         }
         if self.before.touching {
             let against = record.external_work > self.before.external_work;
@@ -213,6 +141,7 @@ impl Audit {
             self.energy_created.judge(&ENERGY_CREATED, energy),
             self.penetration.judge(&PENETRATION, self.expected.element_size),
             self.contact_lost.judge(&CONTACT_LOST, force),
+            self.rate_weakening.judge(&RATE_WEAKENING, 1.0),
         ]
     }
 }

@@ -7,7 +7,7 @@ use crate::model::Record;
 use crate::output::{OutputError, Quantity};
 
 /// Columns of `history.csv` in order: name, kind of quantity, meaning. The names up to `wall_s` are fixed.
-pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 23] = [
+pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 24] = [
     ("step", Quantity::Number, "nominal step, 1 = first"),
     ("time", Quantity::Time, "time at the end of the step"),
     ("drive_x", Quantity::Length, "displacement of the driven edge in x"),
@@ -31,6 +31,7 @@ pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 23] = [
     ("fully_slipping", Quantity::Number, "true if every point in contact slips"),
     ("force_imbalance", Quantity::Number, "resultant of the interface on both bodies, relative"),
     ("moment_imbalance", Quantity::Number, "moment of the interface on both bodies, relative"),
+    ("weakening", Quantity::Number, "share of the bodies' tangential stiffness taken by friction that falls with the slip rate"),
 ];
 
 /// Appends to `history.csv`; a row is on disk when `append` returns.
@@ -92,7 +93,7 @@ fn cells(record: &Record) -> Vec<String> {
     row.extend([record.newton_iterations.to_string(), record.cuts.to_string(), record.converged.to_string()]);
     row.extend([record.wall_s, record.reaction_base[0], record.reaction_base[1]].map(number));
     row.push(record.fully_slipping.to_string());
-    row.extend([record.force_imbalance, record.moment_imbalance].map(number));
+    row.extend([record.force_imbalance, record.moment_imbalance, record.weakening].map(number));
     row
 }
 
@@ -129,5 +130,6 @@ fn record(mut row: Row) -> Result<Record, OutputError> {
         fully_slipping: row.take()?,
         force_imbalance: row.take()?,
         moment_imbalance: row.take()?,
+        weakening: row.take()?,
     })
 }
