@@ -67,7 +67,7 @@ fn names(paths: &[PathBuf]) -> Vec<String> {
 fn a_pass_is_drawn_whole() {
     let (records, units, folder) = (pass(76, 0.3), units(), folder("pass"));
     let rows = interface(&records, 0.3);
-    let data = Data { records: &records, interface: &rows, local_friction: Some(0.3), units: &units };
+    let data = Data { records: &records, interface: &rows, local_friction: Some(0.3), variables: &[], units: &units };
     let mut written = data.write_charts(&folder).unwrap();
     let frames: Vec<_> = choose(&records)
         .iter()
@@ -112,7 +112,7 @@ fn text_is_in_the_png_without_fonts_of_the_machine() {
     // The same chart with and without text must differ in ink; the renderer is given no system font.
     let (records, folder) = (pass(40, 0.1), folder("ink"));
     let bare = UnitLabels::default();
-    let data = Data { records: &records, interface: &[], local_friction: None, units: &bare };
+    let data = Data { records: &records, interface: &[], local_friction: None, variables: &[], units: &bare };
     data.write_charts(&folder).unwrap();
     let with_units = units();
     let named = Data { units: &with_units, ..data };
@@ -146,13 +146,13 @@ fn odd_histories_are_drawn_too() {
     ];
     for (name, records) in cases {
         let rows = interface(&records, 0.3);
-        let data = Data { records: &records, interface: &rows, local_friction: Some(0.3), units: &units };
+        let data = Data { records: &records, interface: &rows, local_friction: Some(0.3), variables: &[], units: &units };
         for path in data.write_charts(&folder(name)).unwrap() {
             let text = fs::read(&path).unwrap();
             assert!(!String::from_utf8_lossy(&text).contains("NaN"), "{name}: {}", path.display());
         }
     }
-    let data = Data { records: &[], interface: &[], local_friction: None, units: &units };
+    let data = Data { records: &[], interface: &[], local_friction: None, variables: &[], units: &units };
     assert!(data.write_charts(&folder("empty")).unwrap().is_empty());
     assert!(data.write_bodies(&folder("empty"), &[]).unwrap().is_empty());
 }

@@ -56,6 +56,29 @@ impl UnitLabels {
         format!("{} {}{power}", self.stress, self.length)
     }
 
+    /// Axis of a variable of a law from its dimension in words (`length`, `stress length^-1`, `1`): units where they are
+    /// known, else the words in parentheses. An underscore in the name would be a subscript; it becomes a space.
+    pub fn variable(&self, name: &str, dimension: &str) -> String {
+        let word = |word: &str| {
+            let (base, power) = word.split_once('^').map_or((word, String::new()), |(b, p)| (b, format!("^{{{p}}}")));
+            let known = match base {
+                "length" => &self.length,
+                "stress" => &self.stress,
+                "time" => &self.time,
+                _ => "",
+            };
+            (if known.is_empty() { base } else { known }.to_owned() + &power, !known.is_empty())
+        };
+        let words: Vec<(String, bool)> = dimension.split(' ').map(word).collect();
+        let unit = words.iter().map(|(text, _)| text.as_str()).collect::<Vec<_>>().join(" ");
+        let name = format!("*{}*", name.replace('_', " "));
+        match (dimension, words.iter().all(|(_, known)| *known)) {
+            ("1", _) => name,
+            (_, true) if words.len() == 1 => format!("{name} / {unit}"),
+            _ => format!("{name} ({unit})"),
+        }
+    }
+
     /// `name / unit` (the form of ISO 80000), or the bare name where no unit is known.
     pub fn axis(&self, name: &str, quantity: Quantity) -> String {
         match self.label(quantity) {

@@ -100,6 +100,7 @@ impl<'a> Recorder<'a> {
             records: &self.records,
             interface: &self.rows,
             local_friction: local_friction(scene),
+            variables: &self.columns.0,
             units: &units,
         };
         let target = self.folder.figures()?;

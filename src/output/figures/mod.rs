@@ -5,6 +5,7 @@
 //! | `forces` | `Fx`, `Fy` over the sliding distance |
 //! | `mu_global` | global friction, local value, bounds `tan(contact_angle -+ atan mu)`; masked where `Fy` is small |
 //! | `interface` | pressure and traction along the interface at chosen instants |
+//! | `states` | internal variables of the law over the closed sites: range and mean (laws with memory only) |
 //! | `energy` | external work, strain energy, dissipation, and what the balance leaves open |
 //! | `bodies` | deformed bodies at the same instants, coloured by von Mises stress, with contact pressure and resultant |
 //!
@@ -27,6 +28,7 @@ mod overlay;
 mod palette;
 mod png;
 mod sampling;
+mod states;
 #[cfg(test)]
 pub(crate) mod synthetic;
 mod text;
@@ -51,12 +53,14 @@ pub struct Data<'a> {
     pub interface: &'a [InterfaceRow],
     /// Local coefficient of friction, if the law has one: reference line and bounds of `mu_global`.
     pub local_friction: Option<f64>,
+    /// Internal variables of the law, as the columns of `interface.csv`: name, dimension in words.
+    pub variables: &'a [(String, String)],
     /// Names of the units.
     pub units: &'a UnitLabels,
 }
 
 impl Data<'_> {
-    /// Writes `forces`, `mu_global`, `energy` and `interface` (`interface_0`, ... with several pairs) as SVG and PNG and
+    /// Writes `forces`, `mu_global`, `energy`, `states` and `interface` (`interface_0`, ... with several pairs) as SVG and PNG and
     /// returns the paths. Nothing is written for fewer than two rows.
     ///
     /// # Errors
@@ -80,6 +84,8 @@ impl Data<'_> {
             ("mu_global".to_owned(), friction::svg(self.records, self.local_friction, &instants, self.units)),
             ("energy".to_owned(), energy::svg(self.records, &instants, self.units)),
         ];
+        let states = states::svg(self.records, self.interface, self.variables, &instants, self.units);
+        figures.extend(states.map(|svg| ("states".to_owned(), svg)));
         let pairs = interface::svgs(self.records, self.interface, &instants, self.units);
         let several = pairs.len() > 1;
         figures.extend(pairs.into_iter().map(|(pair, svg)| match several {

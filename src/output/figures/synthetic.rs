@@ -63,6 +63,7 @@ fn row(step: usize, time: f64, force: [f64; 2], work: f64) -> Record {
         fully_slipping: true,
         force_imbalance: 1e-16,
         moment_imbalance: 1e-16,
+        weakening: 0.0,
     }
 }
 
