@@ -86,7 +86,11 @@ pub fn solve_step(
 ) -> Result<NewtonReport, StepFailure> {
     let mut step = Step { model, start, solver, interrupt, iterations, weakens: false };
     let mut failure = None;
-    for guess in guesses(model, start, time) {
+    for (guess, forces) in guesses(model, start, time) {
+        if step.balanced(&forces) {
+            // nothing touches, or nothing moves
+            return Ok(step.converged(guess, forces, vec![]));
+        }
         match step.attempt(guess) {
             Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
             Err(error) => failure = failure.or(Some(error)),
@@ -123,9 +127,14 @@ impl Step<'_> {
         }
     }
 
+    /// True where the residual is as small as is asked for.
+    fn balanced(&self, evaluation: &Evaluation) -> bool {
+        let floor = ROUND_OFF * self.model.modulus * self.model.size();
+        largest(&evaluation.residual) <= RELATIVE * evaluation.force_scale + floor
+    }
+
     fn newton(&mut self, mut trial: State, mut way: Linearisation) -> Result<NewtonReport, StepFailure> {
         let model = self.model;
-        let floor = ROUND_OFF * model.modulus * model.size();
         let mut evaluation = evaluate(model, self.start, &trial, way.tangent).ok_or(StepFailure::Inverted(0))?;
         let mut residuals = Vec::new();
         loop {
@@ -133,7 +142,7 @@ impl Step<'_> {
             let size = largest(&evaluation.residual);
             residuals.push(size);
             self.weakens |= weakening::weakens(&evaluation);
-            if size <= RELATIVE * evaluation.force_scale + floor {
+            if self.balanced(&evaluation) {
                 return Ok(self.converged(trial, evaluation, residuals));
             }
             if iteration == way.most() || size.is_nan() {
@@ -202,7 +211,7 @@ impl Step<'_> {
         }
         trial.trend = Some(trend(self.model, self.start, &trial));
         trial.ledger.settle(self.model, self.start, &trial.u, trial.time, &evaluation);
-        let iterations = residuals.len() - 1;
+        let iterations = residuals.len().saturating_sub(1);
         NewtonReport { state: trial, evaluation, iterations, residuals, lagged: false, weakening: share }
     }
 

@@ -79,9 +79,9 @@ fn load(model: &Model, body: usize, time: f64) -> Point {
     load
 }
 
-/// Guesses for the end of a step, the one with the smallest residual first; those that turn a body inside out are left
-/// out.
-pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<State> {
+/// Guesses for the end of a step with their forces, the one with the smallest residual first; those that turn a body inside
+/// out are left out.
+pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<(State, Evaluation)> {
     let mut guesses = vec![predict(model, start, time)];
     if let Some(trend) = &start.trend {
         guesses.push(extrapolate(model, start, time, trend, false));
@@ -89,10 +89,10 @@ pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<State> {
             guesses.push(extrapolate(model, start, time, trend, true));
         }
     }
-    let judge = |mut trial: State| land(model, start, &mut trial).map(|found| (found.norm(), trial));
-    let mut judged: Vec<(f64, State)> = guesses.into_iter().filter_map(judge).collect();
-    judged.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    judged.into_iter().map(|(_, trial)| trial).collect()
+    let judge = |mut trial: State| land(model, start, &mut trial).map(|found| (trial, found));
+    let mut judged: Vec<(State, Evaluation)> = guesses.into_iter().filter_map(judge).collect();
+    judged.sort_by(|(_, a), (_, b)| a.norm().total_cmp(&b.norm()));
+    judged
 }
 
 /// The trend after a converged step, for the next one.
