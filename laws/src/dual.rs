@@ -86,6 +86,14 @@ pub fn offset_power(x: Dual, offset: f64, n: f64) -> Dual {
     ((x / offset).ln_1p() * n).exp_m1() * offset.powf(n)
 }
 
+/// From `start` at `x = 0` to `end` at infinity, `end + (start - end) exp(-x)` for `x >= 0`: a sum of positive terms, so no digits
+/// cancel. Constant beyond `x = 500`: what is left of the difference, 1e-217 of it, would soon be lost to underflow, and an
+/// overflowing slope of `x` must not meet it.
+pub fn decay(start: f64, end: f64, x: Dual) -> Dual {
+    let x = min(x, constant(500.0));
+    if start >= end { (-x).exp() * (start - end) + end } else { -(-x).exp_m1() * (end - start) + start }
+}
+
 /// `sqrt(x^2 + floor^2)`, `floor > 0`: `|x|` with a smooth least value, for a law that is singular at rest.
 pub fn hypot(x: Dual, floor: f64) -> Dual {
     let value = x.re.hypot(floor);
@@ -147,6 +155,18 @@ mod tests {
         let (value, slope) = derivatives(&offset_power(pressure_dual(1e-20), 4.0, 0.5));
         assert!((value - 0.25e-20).abs() < 1e-35 && (slope[0] - 0.25).abs() < 1e-15);
         assert_eq!(derivatives(&offset_power(pressure_dual(4.0), 0.0, 1.5)), (8.0, [3.0, 0.0]));
+    }
+
+    #[test]
+    fn decay_meets_both_ends_and_survives_overflow() {
+        for (start, end) in [(0.5, 0.2), (0.2, 0.5), (0.3, 0.3), (1.0, 0.0), (0.0, 1.0)] {
+            assert_eq!(derivatives(&decay(start, end, slip_dual(0.0))), (start, [0.0, end - start]));
+            let (value, slope) = derivatives(&decay(start, end, with_derivatives(f64::INFINITY, [f64::INFINITY, 0.0])));
+            assert!((value - end).abs() < 1e-200 && slope == [0.0, 0.0]);
+            let (value, slope) = derivatives(&decay(start, end, slip_dual(1.0)));
+            let e = std::f64::consts::E;
+            assert!((value - end - (start - end) / e).abs() < 1e-15 && (slope[1] - (end - start) / e).abs() < 1e-15);
+        }
     }
 
     #[test]

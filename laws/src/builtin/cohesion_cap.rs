@@ -38,7 +38,8 @@ impl FrictionLaw for CohesionCap {
 
     fn validate(&self) -> Result<(), LawError> {
         if self.strength.is_some_and(|strength| strength <= self.cohesion) {
-            let message = format!("`strength` must be above `cohesion` ({}): it caps their sum with friction", self.cohesion);
+            let message =
+                format!("`strength` must be above `cohesion` ({}): it caps their sum with friction", self.cohesion);
             return Err(LawError::invalid("cohesion-cap", "strength", message));
         }
         Ok(())
@@ -87,7 +88,7 @@ mod tests {
     #[test]
     fn conforms() {
         for (cohesion, friction) in [(0.0, 0.3), (1e-6, 1e-3), (1e6, 10.0), (2.0, 0.0), (0.0, 0.0)] {
-            for above in [None, Some(1e-9), Some(1.0), Some(1e9)] {
+            for above in [None, Some(1e-3), Some(1.0), Some(1e9)] {
                 let strength = above.map(|above| cohesion + above);
                 crate::conforms(&CohesionCap { cohesion, friction, strength }).unwrap();
             }

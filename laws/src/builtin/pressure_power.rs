@@ -49,7 +49,9 @@ impl FrictionLaw for PressurePower {
 /// An exponent of the pressure below one needs an offset.
 pub(super) fn finite_slope(law: &str, key: &str, exponent: f64, offset_pressure: f64) -> Result<(), LawError> {
     if exponent < 1.0 && offset_pressure == 0.0 {
-        let message = format!("`{key} = {exponent}` below 1 has an infinite slope at no pressure; it needs `offset_pressure` > 0");
+        let message = format!(
+            "`{key} = {exponent}` below 1 has an infinite slope at no pressure; it needs `offset_pressure` > 0"
+        );
         return Err(LawError::invalid(law, "offset_pressure", message));
     }
     Ok(())
@@ -87,8 +89,7 @@ mod tests {
 
     #[test]
     fn schallamach_coefficient_falls_with_the_cube_root() {
-        let law =
-            PressurePower { friction: 0.6, reference_pressure: 5.0, exponent: 2.0 / 3.0, offset_pressure: 5e-12 };
+        let law = PressurePower { friction: 0.6, reference_pressure: 5.0, exponent: 2.0 / 3.0, offset_pressure: 5e-12 };
         let friction = |p| bound(&law, p).0 / p;
         assert!((friction(5.0) - 0.6).abs() < 1e-7);
         assert!((friction(40.0) / friction(5.0) - 0.5).abs() < 1e-7);
@@ -114,7 +115,9 @@ mod tests {
 
     #[test]
     fn conforms() {
-        for (exponent, offset_pressure) in [(2.0 / 3.0, 1e-3), (0.1, 1e-9), (1.0, 0.0), (1.0, 1e6), (1.5, 0.0), (3.0, 1.0)] {
+        for (exponent, offset_pressure) in
+            [(2.0 / 3.0, 1e-3), (0.1, 1e-9), (1.0, 0.0), (1.0, 1e6), (1.5, 1e-6), (3.0, 1.0)]
+        {
             for (friction, reference_pressure) in [(0.0, 1.0), (0.3, 1e-6), (0.3, 1.0), (10.0, 1e6)] {
                 crate::conforms(&PressurePower { friction, reference_pressure, exponent, offset_pressure }).unwrap();
             }

@@ -1,8 +1,8 @@
 //! Friction that falls (or rises) from static to kinetic with the speed.
 
 use crate::{
-    Dual, DualNum, FrictionLaw, InterfacePoint, Kind, LawInfo, Parameter, Range, Response, Unit,
-    dual::{constant, power},
+    Dual, FrictionLaw, InterfacePoint, Kind, LawInfo, Parameter, Range, Response, Unit,
+    dual::{decay, power},
 };
 use serde::{Deserialize, Serialize};
 
@@ -46,20 +46,14 @@ fn gaussian() -> f64 {
 #[typetag::serde(name = "stribeck")]
 impl FrictionLaw for Stribeck {
     fn response(&self, at: &InterfacePoint, _: &[f64], _: &mut [Dual]) -> Response {
-        let decay = decay(at.speed() / self.speed, self.exponent);
-        let friction = decay * (self.static_friction - self.kinetic_friction) + self.kinetic_friction;
+        let x = power(at.speed() / self.speed, self.exponent);
+        let friction = decay(self.static_friction, self.kinetic_friction, x);
         Response::Threshold(at.pressure * (friction + at.speed() * self.viscous))
     }
 
     fn frictionless(&self) -> bool {
         self.static_friction == 0.0 && self.kinetic_friction == 0.0 && self.viscous == 0.0
     }
-}
-
-/// `exp(-x^d)` for `x >= 0`; where it underflows (`x^d > 745`) it is 0 with derivative 0, for `x^(d-1)` may overflow there.
-fn decay(x: Dual, exponent: f64) -> Dual {
-    let exponent = power(x, exponent);
-    if exponent.re > 745.0 { constant(0.0) } else { (-exponent).exp() }
 }
 
 inventory::submit! {

@@ -66,7 +66,9 @@ mod tests {
 
     #[test]
     fn conforms() {
-        for (friction, slope, modulus) in [(0.8, 1.5, 3.0), (0.3, 0.0, 1.0), (0.0, 1.0, 1.0), (10.0, 1e6, 1e-6), (1e-3, 1e-6, 1e9)] {
+        for (friction, slope, modulus) in
+            [(0.8, 1.5, 3.0), (0.3, 0.0, 1.0), (0.0, 1.0, 1.0), (10.0, 1e6, 1e-6), (1e-3, 1e-6, 1e9)]
+        {
             crate::conforms(&Thirion { friction, slope, modulus }).unwrap();
         }
     }
