@@ -12,7 +12,8 @@ use num_dual::{Derivative, DualSVec64};
 /// The methods of dual numbers (`exp`, `ln`, `asinh`, `recip`, ...); bring it into scope to write a law.
 pub use num_dual::DualNum;
 
-/// A number with its derivatives with respect to `[pressure, slip increment]`; units are those of the value per stress and per length.
+/// A number with its derivatives with respect to `[pressure, slip increment]`; units are those of the value per stress and per
+/// length.
 pub type Dual = DualSVec64<2>;
 
 /// The independent variable pressure: derivative `[1, 0]`.

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= min(c + mu p, tau)`: Coulomb's law shifted by a cohesion `c` (Mohr-Coulomb) and cut at the shear strength `tau` (Orowan).
 ///
-/// In metal forming the pressure grows beyond what the softer surface can carry in shear: friction stops growing at its shear strength
-/// `tau = m sigma_y / sqrt 3`, `m <= 1`. Adhesive contacts resist by `c` even without pressure; like Tresca's, this part acts while the
-/// point is in contact and jumps as it opens. All of `c`, `tau` and `p` are true stresses.
+/// In metal forming the pressure grows beyond what the softer surface can carry in shear: friction stops growing at its shear
+/// strength `tau = m sigma_y / sqrt 3`, `m <= 1`. Adhesive contacts resist by `c` even without pressure; like Tresca's, this
+/// part acts while the point is in contact and jumps as it opens. All of `c`, `tau` and `p` are true stresses.
 ///
 /// Derivatives `db/dp = mu` below the cap and `0` above (mean at the kink), `db/ds = 0`.
 /// Limits: `c = 0` without cap is Coulomb's law, `mu = 0` Tresca's with `tau = c`, both zero no friction.

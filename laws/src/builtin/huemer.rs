@@ -9,20 +9,22 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= mu(p, v) p`, `mu = (alpha |p|^(n-1) + beta) / (a + b |v|^(-1/m) + c |v|^(-2/m))`, fitted to block tests.
 ///
-/// The numerator falls with the pressure (`n < 1`, rubber), the denominator is a parabola in `x = |v|^(-1/m)`: with `b < 0` the coefficient has
-/// a maximum over the speed at `x = -b/2c`, elsewise it grows from rest to high speed, where it tends to `(alpha p^(n-1) + beta) / a`. Pressure and speed
-/// are counted in units of a reference, `p/p_r` and `|v|/v_r` (those of the fit, say 1 MPa and 1 mm/s), which makes all coefficients pure numbers.
-/// `p` is the true pressure.
+/// The numerator falls with the pressure (`n < 1`, rubber), the denominator is a parabola in `x = |v|^(-1/m)`: with `b < 0` the
+/// coefficient has a maximum over the speed at `x = -b/2c`, else it grows from rest to high speed, where it tends to
+/// `(alpha p^(n-1) + beta) / a`. Pressure and speed are counted in units of a reference, `p/p_r` and `|v|/v_r` (those of the
+/// fit, say 1 MPa and 1 mm/s), which makes all coefficients pure numbers. `p` is the true pressure.
 ///
-/// Regularised twice. `p |p/p_r|^(n-1)` has an infinite slope at `p = 0` for `n < 1`: it becomes `p_r [((p+p_0)/p_r)^n - (p_0/p_r)^n]` as
-/// in [`crate::builtin::PressurePower`]. The coefficient tends to 0 at rest, with infinite slope: `|v|` becomes `sqrt(v^2 + v_f^2)`, so that a
-/// contact at rest sticks with what it carries at the floor `v_f`. The bound is smooth with `db/ds = 0` at rest.
+/// Regularised twice. `p |p/p_r|^(n-1)` has an infinite slope at `p = 0` for `n < 1`: it becomes
+/// `p_r [((p+p_0)/p_r)^n - (p_0/p_r)^n]` as in [`crate::builtin::PressurePower`]. The coefficient tends to 0 at rest, with
+/// infinite slope: `|v|` becomes `sqrt(v^2 + v_f^2)`, so that a contact at rest sticks with what it carries at the floor `v_f`.
+/// The bound is smooth with `db/ds = 0` at rest.
 ///
-/// The denominator must not vanish: `a > 0`, `c >= 0`, and `b^2 < 4 a c` if `b < 0`. Falling branches over the speed: see the warning at
-/// [`crate::builtin::Stribeck`]. Limits: `alpha = b = c = 0` is Coulomb's law with `beta/a`, `alpha = beta = 0` no friction.
+/// The denominator must not vanish: `a > 0`, `c >= 0`, and `b^2 < 4 a c` if `b < 0`. Falling branches over the speed: see the
+/// warning at [`crate::builtin::Stribeck`]. Limits: `alpha = b = c = 0` is Coulomb's law with `beta/a`, `alpha = beta = 0` no
+/// friction.
 ///
-/// Reference: T. Huemer, W. N. Liu, J. Eberhardsteiner and H. A. Mang, Eng. Comput. 18 (2001) 417. The printed equation was not checked against
-/// the source; the regularisation is ours.
+/// Reference: T. Huemer, W. N. Liu, J. Eberhardsteiner and H. A. Mang, Eng. Comput. 18 (2001) 417. The printed equation was not
+/// checked against the source; the regularisation is ours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Huemer {
@@ -78,8 +80,8 @@ inventory::submit! {
     LawInfo {
         name: "huemer",
         kind: Kind::SetValued,
-        equation: "|q| <= p (alpha P^(n-1) + beta) / (a + b V^(-1/m) + c V^(-2/m)), P = p/reference_pressure, V = |v|/reference_speed; \
-                   linear in p below offset_pressure, constant in v below floor_speed",
+        equation: "|q| <= p (alpha P^(n-1) + beta) / (a + b V^(-1/m) + c V^(-2/m)), \
+                   P = p/reference_pressure, V = |v|/reference_speed; linear in p below offset_pressure, constant in v below floor_speed",
         parameters: &[
             Parameter::new("alpha", Unit::ONE, Range::AtLeast(0.0), "pressure-dependent part of the numerator"),
             Parameter::new("n", Unit::ONE, Range::Above(0.0), "exponent of the traction over the pressure"),

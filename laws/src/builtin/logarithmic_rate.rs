@@ -8,16 +8,17 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= mu(v) p`, `mu(v) = max(0, mu_0 + a ln(1 + |v|/v_0))`.
 ///
-/// Thermally activated sliding: the coefficient changes by `a ln 10` per decade of speed above `v_0`, and rests at `mu_0` below. `a > 0`
-/// strengthens, `a < 0` weakens until nothing is left at `|v| = v_0 (exp(mu_0/|a|) - 1)`. It is the steady state of a rate-and-state law
-/// with `a` in place of its `a - b`, but without memory and therefore, for `a < 0`, ill-posed in quasi-static models at small time steps (see
-/// [`crate::builtin::Stribeck`]). Usual `|a|`: 0.005 to 0.05 for dry friction of rock, polymer, paper.
+/// Thermally activated sliding: the coefficient changes by `a ln 10` per decade of speed above `v_0`, and rests at `mu_0`
+/// below. `a > 0` strengthens, `a < 0` weakens until nothing is left at `|v| = v_0 (exp(mu_0/|a|) - 1)`. It is the steady state
+/// of a rate-and-state law with `a` in place of its `a - b`, but without memory and therefore, for `a < 0`, ill-posed in
+/// quasi-static models at small time steps (see [`crate::builtin::Stribeck`]). Usual `|a|`: 0.005 to 0.05 for dry friction of
+/// rock, polymer, paper.
 ///
 /// Derivatives `db/dp = mu`, `db/ds = sign(s) p a / [(v_0 + |v|) dt]`, 0 at rest and where nothing is left.
 /// Limits: `v -> 0` gives `mu_0`; `a = 0` is Coulomb's law.
 ///
-/// Reference: T. Baumberger and C. Caroli, Adv. Phys. 55 (2006) 279 (review); the `1 +` as in J. H. Dieterich, J. Geophys. Res. 84 (1979) 2161.
-/// The printed equation was not checked against the source.
+/// Reference: T. Baumberger and C. Caroli, Adv. Phys. 55 (2006) 279 (review); the `1 +` as in J. H. Dieterich, J. Geophys. Res.
+/// 84 (1979) 2161. The printed equation was not checked against the source.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LogarithmicRate {

@@ -9,24 +9,27 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= tau(v, T) A(p)`, `tau = tau_0 exp(-c log10^2(a_T w/v_p))`, `A = erf(sqrt(pi)/2 p/p_c)`, `w = sqrt(v^2 + v_f^2)`.
 ///
-/// The true contact area, a share `A` of the apparent one, shears at a stress `tau` that is a wide bell over the logarithm of the speed: chains of the
-/// rubber bind and detach. Lorenz et al. found `c` about 0.1, `tau_0` several MPa, `v_p` of mm/s to cm/s. `A` is Persson's area for a randomly
-/// rough surface: `p/p_c` at low pressure, 1 in full contact; `p_c = E* h'/sqrt(2 pi) * sqrt(pi)/2 = E* h' / (2 sqrt 2)` with the root mean square slope `h'`
-/// (as `A = erf(sqrt 2 p / (E* h'))`). `p`, `tau` and `p_c` are true stresses.
+/// The true contact area, a share `A` of the apparent one, shears at a stress `tau` that is a wide bell over the logarithm of
+/// the speed: chains of the rubber bind and detach. Lorenz et al. found `c` about 0.1, `tau_0` several MPa, `v_p` of mm/s to
+/// cm/s. `A` is Persson's area for a randomly rough surface: `p/p_c` at low pressure, 0.79 at `p_c`, 1 in full contact; for a
+/// surface of root mean square slope `h'`, `A = erf(sqrt(2) p / (E* h'))`, it is `p_c = sqrt(pi/8) E* h'`. `p`, `tau` and `p_c`
+/// are true stresses.
 ///
-/// **Temperature** shifts the speed by `log10 a_T = -c1 (T - T_0) / (c2 + T - T_0)` (Williams, Landel, Ferry), `T_0` where `v_p` was measured. Universal:
-/// `c1 = 8.86, c2 = 101.5 K` with `T_0` 50 K above the glass transition. An Arrhenius law with activation energy `E` is the same function with
-/// `c2 = T_0` (absolute) and `c1 = E / (k_B T_0 ln 10)`; 1 eV at 293 K gives `c1 = 17.2`. A scene without temperature is at `T_0`; `c1 = 0`, the default,
-/// shifts nothing. At and below `T_0 - c2` the rubber is frozen: `a_T` has passed all bounds and is held at 1e308.
+/// **Temperature** shifts the speed by `log10 a_T = -c1 (T - T_0) / (c2 + T - T_0)` (Williams, Landel, Ferry), `T_0` where
+/// `v_p` was measured. Universal: `c1 = 8.86, c2 = 101.5 K` with `T_0` 50 K above the glass transition. An Arrhenius law with
+/// activation energy `E` is the same function with `c2 = T_0` (absolute) and `c1 = E / (k_B T_0 ln 10)`; 1 eV at 293 K gives
+/// `c1 = 17.2`. A scene without temperature is at `T_0`; `c1 = 0`, the default, shifts nothing. At and below `T_0 - c2` the
+/// rubber is frozen: `a_T` has passed all bounds and is held at 1e308.
 ///
-/// At rest the bell would fall to nothing within decades of speed that no step resolves. The floor `v_f < v_p` ends it; the contact creeps
-/// there anyway. Derivatives `db/dp = tau exp(-pi p^2 / 4 p_c^2) / p_c`, `db/ds = -2 c log10(a_T w/v_p) b v / (w^2 ln(10) dt)`, smooth and 0 at rest. Above `v_p` friction
-/// weakens: see the warning at [`crate::builtin::Stribeck`].
-/// Limits: peak `b = tau_0 A` at `sqrt(v_p^2/a_T^2 - v_f^2)`; for `p << p_c` the law of a coefficient `tau/p_c`; `p >> p_c` shear at `tau` (Tresca's law for `c = 0`).
+/// At rest the bell would fall to nothing within decades of speed that no step resolves. The floor `v_f < v_p` ends it; the
+/// contact creeps there anyway. Derivatives `db/dp = tau exp(-pi p^2 / 4 p_c^2) / p_c`,
+/// `db/ds = -2 c log10(a_T w/v_p) b v / (w^2 ln(10) dt)`, smooth and 0 at rest. Above `v_p` friction weakens: see the warning
+/// at [`crate::builtin::Stribeck`]. Limits: peak `b = tau_0 A` at `sqrt(v_p^2/a_T^2 - v_f^2)`; for `p << p_c` the law of a
+/// coefficient `tau/p_c`; `p >> p_c` shear at `tau` (Tresca's law for `c = 0`).
 ///
-/// Reference: B. Lorenz, Y. R. Oh, S. K. Nam, S. H. Jeon and B. N. J. Persson, J. Chem. Phys. 142 (2015) 194701; area: B. N. J. Persson, J. Chem.
-/// Phys. 115 (2001) 3840; shift: M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701. The printed equations were not
-/// checked against the sources; the floor is ours.
+/// Reference: B. Lorenz, Y. R. Oh, S. K. Nam, S. H. Jeon and B. N. J. Persson, J. Chem. Phys. 142 (2015) 194701; area: B. N. J.
+/// Persson, J. Chem. Phys. 115 (2001) 3840; shift: M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955)
+/// 3701. The printed equations were not checked against the sources; the floor is ours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Persson {
@@ -38,7 +41,7 @@ pub struct Persson {
     pub curvature: f64,
     /// Speed `v_f > 0` below which the shear stress stays constant.
     pub floor_speed: f64,
-    /// Pressure `p_c > 0` at which contact becomes full (stress).
+    /// Pressure `p_c > 0` at which the area would be full if it went on growing as at first (stress).
     pub saturation_pressure: f64,
     /// Temperature `T_0` at which `peak_speed` holds.
     #[serde(default)]
@@ -93,7 +96,8 @@ inventory::submit! {
         name: "persson",
         kind: Kind::SetValued,
         equation: "|q| <= strength exp(-curvature L^2) erf(sqrt(pi)/2 p/saturation_pressure), \
-                   L = log10(w/peak_speed) - wlf_c1 D / (wlf_c2 + D), D = T - reference_temperature, w = sqrt(v^2 + floor_speed^2)",
+                   L = log10(w/peak_speed) - wlf_c1 D / (wlf_c2 + D), \
+                   D = T - reference_temperature, w = sqrt(v^2 + floor_speed^2)",
         parameters: &[
             Parameter::new("strength", Unit::STRESS, Range::AtLeast(0.0), "shear stress of the true contact at the peak"),
             Parameter::new("peak_speed", Unit::VELOCITY, Range::Above(0.0), "speed of the peak at the reference temperature"),
@@ -104,7 +108,7 @@ inventory::submit! {
                 Range::Above(0.0),
                 "speed below which friction is constant; < peak_speed",
             ),
-            Parameter::new("saturation_pressure", Unit::STRESS, Range::Above(0.0), "pressure of full contact"),
+            Parameter::new("saturation_pressure", Unit::STRESS, Range::Above(0.0), "pressure at which contact would be full, were the area p/p_c"),
             Parameter::new("reference_temperature", Unit::TEMPERATURE, Range::Number, "temperature without shift").or("0"),
             Parameter::new("wlf_c1", Unit::ONE, Range::AtLeast(0.0), "shift in decades, far above the reference").or("0"),
             Parameter::new(

@@ -8,15 +8,16 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= mu_0 (w/v_0)^m p`, `w = sqrt(v^2 + v_f^2)`.
 ///
-/// A straight line of slope `m` in a double logarithmic plot, `mu_0` at the speed `v_0`: `m > 0` strengthens (shear of a thin power-law fluid or
-/// of ice), `m < 0` weakens and is ill-posed in quasi-static models at small time steps (see [`crate::builtin::Stribeck`]).
-/// The power itself vanishes (`m > 0`) or diverges (`m < 0`) at rest with infinite slope, so the speed is rounded at a floor `v_f`, below which
-/// the coefficient stays at its value at rest, `mu_0 (v_f/v_0)^m`; at `v = 10 v_f` the difference to the power is `m/2` %.
+/// A straight line of slope `m` in a double logarithmic plot, `mu_0` at the speed `v_0`: `m > 0` strengthens (shear of a thin
+/// power-law fluid or of ice), `m < 0` weakens and is ill-posed in quasi-static models at small time steps (see
+/// [`crate::builtin::Stribeck`]). The power itself vanishes (`m > 0`) or diverges (`m < 0`) at rest with infinite slope, so the
+/// speed is rounded at a floor `v_f`, below which the coefficient stays at its value at rest, `mu_0 (v_f/v_0)^m`; at
+/// `v = 10 v_f` the difference to the power is `m/2` %.
 ///
 /// Derivatives `db/dp = mu`, `db/ds = m mu p v / (w^2 dt)`, smooth and 0 at rest. Limit `m = 0`: Coulomb's law.
 ///
-/// Reference: W. F. Budd, P. L. Keage and N. A. Blundy, J. Glaciol. 23 (1979) 157, for ice (speed as a power of friction and pressure).
-/// The printed equation was not checked against the source; the floor is ours.
+/// Reference: W. F. Budd, P. L. Keage and N. A. Blundy, J. Glaciol. 23 (1979) 157, for ice (speed as a power of friction and
+/// pressure). The printed equation was not checked against the source; the floor is ours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PowerRate {

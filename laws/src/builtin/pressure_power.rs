@@ -7,12 +7,13 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= mu_r p_r [((p + p_0)/p_r)^n - (p_0/p_r)^n]`, that is `k [(p + p_0)^n - p_0^n]` with `k = mu_r p_r^(1-n)`.
 ///
-/// Friction follows the real area of contact. A smooth elastic asperity (Hertz) gives `n = 2/3`, so that the coefficient falls as
-/// `p^(-1/3)`: Schallamach's rubber. Many asperities of many sizes give `n -> 1` (Archard). `mu_r` is the coefficient at the pressure `p_r`, for
-/// `p_0 = 0`, and saves `k` its broken unit. `p` is the true pressure.
+/// Friction follows the real area of contact. A smooth elastic asperity (Hertz) gives `n = 2/3`, so that the coefficient falls
+/// as `p^(-1/3)`: Schallamach's rubber. Many asperities of many sizes give `n -> 1` (Archard). `mu_r` is the coefficient at the
+/// pressure `p_r`, for `p_0 = 0`, and saves `k` its broken unit. `p` is the true pressure.
 ///
-/// For `n < 1` the slope of the power is infinite at `p = 0`; the offset `p_0 > 0` makes it finite, `db/dp = n mu_r ((p + p_0)/p_r)^(n-1)`, and the
-/// law Coulomb's with this coefficient for `p << p_0`. `db/ds = 0`. Limit `n = 1`: Coulomb's law with `mu_r`, whatever the offset.
+/// For `n < 1` the slope of the power is infinite at `p = 0`; the offset `p_0 > 0` makes it finite,
+/// `db/dp = n mu_r ((p + p_0)/p_r)^(n-1)`, and the law Coulomb's with this coefficient for `p << p_0`. `db/ds = 0`. Limit
+/// `n = 1`: Coulomb's law with `mu_r`, whatever the offset.
 ///
 /// Reference: A. Schallamach, Proc. Phys. Soc. B 65 (1952) 657; J. F. Archard, Proc. R. Soc. A 243 (1957) 190. The offset is ours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

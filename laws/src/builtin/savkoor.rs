@@ -8,12 +8,14 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= mu(v) p`, `mu = mu_s + (mu_m - mu_s) exp(-h^2 log10^2(w/v_m))`, `w = sqrt(v^2 + v_f^2)`.
 ///
-/// Dry rubber on a hard track: over the logarithm of the speed the coefficient is a bell, with its peak `mu_m` at the speed `v_m` and `mu_s` on
-/// both sides; at `h |log10(v/v_m)| = 1` the bell has fallen to `1/e`. Below `v_m` friction strengthens (stable creep instead of a sharp onset
-/// of sliding), above it weakens: see the warning at [`crate::builtin::Stribeck`]. Usual values: `mu_m` 1 to 3, `v_m` mm/s to cm/s, `h` 0.3 to 0.5.
+/// Dry rubber on a hard track: over the logarithm of the speed the coefficient is a bell, with its peak `mu_m` at the speed
+/// `v_m` and `mu_s` on both sides; at `h |log10(v/v_m)| = 1` the bell has fallen to `1/e`. Below `v_m` friction strengthens
+/// (stable creep instead of a sharp onset of sliding), above it weakens: see the warning at [`crate::builtin::Stribeck`]. Usual
+/// values: `mu_m` 1 to 3, `v_m` mm/s to cm/s, `h` 0.3 to 0.5.
 ///
-/// The bell is smooth at `v = 0` in theory (all derivatives vanish) but falls within decades of speed that no step resolves; the
-/// floor `v_f < v_m` ends it: below, the coefficient stays at its value at `v_f`, close to `mu_s`. The peak then lies at `sqrt(v_m^2 - v_f^2)`.
+/// The bell is smooth at `v = 0` in theory (all derivatives vanish) but falls within decades of speed that no step resolves;
+/// the floor `v_f < v_m` ends it: below, the coefficient stays at its value at `v_f`, close to `mu_s`. The peak then lies at
+/// `sqrt(v_m^2 - v_f^2)`.
 ///
 /// Derivatives `db/dp = mu`, `db/ds = -2 h^2 log10(w/v_m) (mu - mu_s) p v / (w^2 ln(10) dt)`, smooth and 0 at rest.
 /// Limits: `mu_m = mu_s` is Coulomb's law, `h -> 0` Coulomb's with `mu_m`.

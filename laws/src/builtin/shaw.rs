@@ -5,16 +5,16 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= tau f(mu p / tau)` with `f(x) = tanh x` or `f(x) = 1 - exp(-x)`.
 ///
-/// Coulomb friction at low pressure, `b -> mu p`, and shear at the strength `tau` of the softer surface at high pressure, `b -> tau`,
-/// without the kink of a cap. Shaw, Ber and Mamin explain it by the real area of contact, which approaches the apparent one. As `f <= x`
-/// and `f <= 1`, the bound lies below `min(mu p, tau)`: at `mu p = tau` by 24 % (tanh) or 37 % (exponential). `tau` and `p` are true
-/// stresses.
+/// Coulomb friction at low pressure, `b -> mu p`, and shear at the strength `tau` of the softer surface at high pressure,
+/// `b -> tau`, without the kink of a cap. Shaw, Ber and Mamin explain it by the real area of contact, which approaches the
+/// apparent one. As `f <= x` and `f <= 1`, the bound lies below `min(mu p, tau)`: at `mu p = tau` by 24 % (tanh) or 37 %
+/// (exponential). `tau` and `p` are true stresses.
 ///
 /// Derivatives `db/dp = mu sech^2(mu p/tau)` or `mu exp(-mu p/tau)`, falling from `mu` to 0; `db/ds = 0`.
 /// Limits: `tau -> infinity` is Coulomb's law, `mu -> infinity` Tresca's, `mu = 0` no friction.
 ///
-/// Reference: M. C. Shaw, A. Ber and P. A. Mamin, J. Basic Eng. 82 (1960) 342. The two functions are common ways to write the transition
-/// found there; the printed equation was not checked against the source.
+/// Reference: M. C. Shaw, A. Ber and P. A. Mamin, J. Basic Eng. 82 (1960) 342. The two functions are common ways to write the
+/// transition found there; the printed equation was not checked against the source.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shaw {

@@ -8,20 +8,21 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= mu(v) p`, `mu(v) = mu_k + (mu_s - mu_k) exp(-(|v|/v_s)^d) + c |v|`: the Stribeck curve.
 ///
-/// One law for all common forms: `d = 1` is the exponential decay of Tustin, of Oden and Martins and of most finite element codes
-/// (their decay coefficient is `1/v_s`); `d = 2`, the default, is the Gaussian Stribeck curve; `c` adds the
-/// viscous branch of a lubricated contact (a viscous coefficient of friction: its share of the traction is `c |v| p`). `mu_k > mu_s` is allowed: a curve that rises.
+/// One law for all common forms: `d = 1` is the exponential decay of Tustin, of Oden and Martins and of most finite element
+/// codes (their decay coefficient is `1/v_s`); `d = 2`, the default, is the Gaussian Stribeck curve; `c` adds the viscous
+/// branch of a lubricated contact (a viscous coefficient of friction: its share of the traction is `c |v| p`). `mu_k > mu_s` is
+/// allowed: a curve that rises.
 ///
-/// Limits: `v -> 0` gives `mu_s`, `v -> infinity` gives `mu_k + c |v|`; `mu_s = mu_k, c = 0` is Coulomb's law.
-/// Derivative `db/ds = sign(s) (p/dt) [c - (mu_s - mu_k) d |v|^(d-1) / v_s^d exp(-(|v|/v_s)^d)]`, 0 at rest (the mean of both sides, which
+/// Limits: `v -> 0` gives `mu_s`, `v -> infinity` gives `mu_k + c |v|`; `mu_s = mu_k, c = 0` is Coulomb's law. Derivative
+/// `db/ds = sign(s) (p/dt) [c - (mu_s - mu_k) d |v|^(d-1) / v_s^d exp(-(|v|/v_s)^d)]`, 0 at rest (the mean of both sides, which
 /// matters for `d = 1` and for `c > 0`, where the curve has a corner).
 ///
-/// **Falling branches are ill-posed in a quasi-static model.** The tangential stiffness of a sliding point, `k_t`, competes with
-/// `p mu'(v) / dt`: where `dt < p |mu'| / k_t` the sum is negative, the step has several solutions or none, and cutting the step makes it
-/// worse. It needs inertia or a law with a state. Usual `v_s`: 1e-3 to 1e-1 m/s.
+/// **Falling branches are ill-posed in a quasi-static model.** The tangential stiffness of a sliding point, `k_t`, competes
+/// with `p mu'(v) / dt`: where `dt < p |mu'| / k_t` the sum is negative, the step has several solutions or none, and cutting
+/// the step makes it worse. It needs inertia or a law with a state. Usual `v_s`: 1e-3 to 1e-1 m/s.
 ///
-/// Reference: R. Stribeck, Z. VDI 46 (1902) 1341; `d`: L. C. Bo and D. Pavelescu, Wear 82 (1982) 277; B. Armstrong-Helouvry, P. Dupont and
-/// C. Canudas de Wit, Automatica 30 (1994) 1083; `d = 1`: J. T. Oden and J. A. C. Martins, CMAME 52 (1985) 527.
+/// Reference: R. Stribeck, Z. VDI 46 (1902) 1341; `d`: L. C. Bo and D. Pavelescu, Wear 82 (1982) 277; B. Armstrong-Helouvry, P.
+/// Dupont and C. Canudas de Wit, Automatica 30 (1994) 1083; `d = 1`: J. T. Oden and J. A. C. Martins, CMAME 52 (1985) 527.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stribeck {

@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 
 /// `|q| <= mu p`, `1/mu = c_1 + c_2 p/E`: the inverse of the coefficient of rubber grows linearly with the pressure.
 ///
-/// Written with the coefficient at low pressure `mu_0 = 1/c_1`: `b = mu_0 p / (1 + mu_0 c_2 p/E)`. The bound rises with the slope `mu_0` and
-/// saturates at the shear strength `E/c_2` of the full contact, much more slowly than in [`crate::builtin::Shaw`]: at `p = E/(mu_0 c_2)` half of it is reached.
-/// Only the ratio `c_2/E` counts; both are kept since Thirion measured `c_2` over rubbers of several moduli. `p` is the true pressure.
+/// Written with the coefficient at low pressure `mu_0 = 1/c_1`: `b = mu_0 p / (1 + mu_0 c_2 p/E)`. The bound rises with the
+/// slope `mu_0` and saturates at the shear strength `E/c_2` of the full contact, much more slowly than in
+/// [`crate::builtin::Shaw`]: at `p = E/(mu_0 c_2)` half of it is reached. Only the ratio `c_2/E` counts; both are kept since
+/// Thirion measured `c_2` over rubbers of several moduli. `p` is the true pressure.
 ///
 /// Derivatives `db/dp = mu_0 / (1 + mu_0 c_2 p/E)^2`, `db/ds = 0`. Limits: `c_2 = 0` is Coulomb's law, `mu_0 = 0` no friction.
 ///
