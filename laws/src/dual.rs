@@ -12,7 +12,8 @@ use num_dual::{Derivative, DualSVec64};
 /// The methods of dual numbers (`exp`, `ln`, `asinh`, `recip`, ...); bring it into scope to write a law.
 pub use num_dual::DualNum;
 
-/// A number with its derivatives with respect to `[pressure, slip increment]`; units are those of the value per stress and per length.
+/// A number with its derivatives with respect to `[pressure, slip increment]`; units are those of the value per stress and per
+/// length.
 pub type Dual = DualSVec64<2>;
 
 /// The independent variable pressure: derivative `[1, 0]`.
@@ -72,10 +73,37 @@ pub fn tanh(x: Dual) -> Dual {
     if x.re.abs() > 400.0 { constant(x.re.signum()) } else { chain(x, x.re.tanh(), x.re.cosh().powi(-2)) }
 }
 
-/// `x^n` for `x >= 0`, `n > 0`. At `x = 0` the value is 0 and the derivative 0 for `n > 1`, 1 for `n = 1`, infinite for `n < 1`
-/// (regularise such a law: `(x + x0)^n - x0^n`).
+/// `x^n` for `x >= 0`, `n > 0` or `x > 0` and any `n`. At `x = 0` the value is 0 and the derivative 0 for `n > 1`, 1 for `n = 1`,
+/// infinite for `n < 1` (regularise such a law by [`offset_power`]).
 pub fn power(x: Dual, n: f64) -> Dual {
     chain(x, x.re.powf(n), n * x.re.powf(n - 1.0))
+}
+
+/// `(x + offset)^n - offset^n` for `x, offset >= 0`, `n > 0`, without cancellation: a power that starts at 0 with a finite slope.
+pub fn offset_power(x: Dual, offset: f64, n: f64) -> Dual {
+    if offset == 0.0 {
+        return power(x, n);
+    }
+    ((x / offset).ln_1p() * n).exp_m1() * offset.powf(n)
+}
+
+/// From `start` at `x = 0` to `end` at infinity, `end + (start - end) exp(-x)` for `x >= 0`: a sum of positive terms, so no digits
+/// cancel. Constant beyond `x = 500`: what is left of the difference, 1e-217 of it, would soon be lost to underflow, and an
+/// overflowing slope of `x` must not meet it.
+pub fn decay(start: f64, end: f64, x: Dual) -> Dual {
+    let x = min(x, constant(500.0));
+    if start >= end { (-x).exp() * (start - end) + end } else { -(-x).exp_m1() * (end - start) + start }
+}
+
+/// `sqrt(x^2 + floor^2)`, `floor > 0`: `|x|` with a smooth least value, for a law that is singular at rest.
+pub fn hypot(x: Dual, floor: f64) -> Dual {
+    let value = x.re.hypot(floor);
+    chain(x, value, x.re / value)
+}
+
+/// Error function.
+pub fn erf(x: Dual) -> Dual {
+    chain(x, libm::erf(x.re), std::f64::consts::FRAC_2_SQRT_PI * (-x.re * x.re).exp())
 }
 
 /// A function of `x` of which value and derivative are known.
@@ -119,5 +147,49 @@ mod tests {
         assert!((value - 0.5f64.tanh()).abs() < 1e-15 && (slope[1] - (1.0 - value * value)).abs() < 1e-15);
         assert_eq!(derivatives(&power(pressure_dual(0.0), 1.5)), (0.0, [0.0, 0.0]));
         assert_eq!(derivatives(&power(pressure_dual(4.0), 1.5)), (8.0, [3.0, 0.0]));
+    }
+
+    #[test]
+    fn offset_power_agrees_with_its_definition_and_starts_with_finite_slope() {
+        let (value, slope) = derivatives(&offset_power(pressure_dual(3.0), 1.0, 0.5));
+        assert!((value - 1.0).abs() < 1e-15 && (slope[0] - 0.25).abs() < 1e-15);
+        let (value, slope) = derivatives(&offset_power(pressure_dual(1e-20), 4.0, 0.5));
+        assert!((value - 0.25e-20).abs() < 1e-35 && (slope[0] - 0.25).abs() < 1e-15);
+        assert_eq!(derivatives(&offset_power(pressure_dual(4.0), 0.0, 1.5)), (8.0, [3.0, 0.0]));
+    }
+
+    #[test]
+    fn decay_meets_both_ends_and_survives_overflow() {
+        for (start, end) in [(0.5, 0.2), (0.2, 0.5), (0.3, 0.3), (1.0, 0.0), (0.0, 1.0)] {
+            assert_eq!(derivatives(&decay(start, end, slip_dual(0.0))), (start, [0.0, end - start]));
+            let (value, slope) = derivatives(&decay(start, end, with_derivatives(f64::INFINITY, [f64::INFINITY, 0.0])));
+            assert!((value - end).abs() < 1e-200 && slope == [0.0, 0.0]);
+            let (value, slope) = derivatives(&decay(start, end, slip_dual(1.0)));
+            let e = std::f64::consts::E;
+            assert!((value - end - (start - end) / e).abs() < 1e-15 && (slope[1] - (end - start) / e).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn hypot_is_even_and_never_below_its_floor() {
+        assert_eq!(derivatives(&hypot(slip_dual(0.0), 1e-3)), (1e-3, [0.0, 0.0]));
+        assert_eq!(derivatives(&hypot(slip_dual(-3.0), 4.0)), (5.0, [0.0, -0.6]));
+        assert_eq!(derivatives(&hypot(slip_dual(1e200), 1.0)), (1e200, [0.0, 1.0]));
+    }
+
+    #[test]
+    fn erf_agrees_with_its_power_series() {
+        for x in [-1.5f64, -1e-3, 0.0, 0.3, 1.0, 2.0] {
+            let (mut term, mut sum) = (x, x);
+            for n in 1..60 {
+                term *= -x * x / f64::from(n);
+                sum += term / f64::from(2 * n + 1);
+            }
+            let (value, slope) = derivatives(&erf(pressure_dual(x)));
+            assert!((value - sum * std::f64::consts::FRAC_2_SQRT_PI).abs() < 1e-14, "erf {x} = {value}");
+            let h = 1e-5;
+            let difference = (libm::erf(x + h) - libm::erf(x - h)) / (2.0 * h);
+            assert!((slope[0] - difference).abs() < 1e-9, "slope {} of erf at {x}", slope[0]);
+        }
     }
 }

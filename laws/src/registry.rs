@@ -81,6 +81,11 @@ pub enum LawError {
 }
 
 impl LawError {
+    /// A condition among several parameters that does not hold, pinned to one of them.
+    pub fn invalid(law: &str, key: &str, message: impl Into<String>) -> Self {
+        Self::Invalid { law: law.into(), key: key.into(), message: message.into() }
+    }
+
     /// The key in the table of the law to which the message belongs; `type` where it is the law as a whole.
     pub fn key(&self) -> &str {
         match self {
