@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn conforms() {
         for (exponent, offset_pressure) in
-            [(2.0 / 3.0, 1e-3), (0.1, 1e-9), (1.0, 0.0), (1.0, 1e6), (1.5, 1e-6), (3.0, 1.0)]
+            [(2.0 / 3.0, 1e-3), (0.1, 1e-9), (1.0, 0.0), (1.0, 1e6), (1.5, 0.0), (2.0, 0.0), (3.0, 1.0)]
         {
             for (friction, reference_pressure) in [(0.0, 1.0), (0.3, 1e-6), (0.3, 1.0), (10.0, 1e6)] {
                 crate::conforms(&PressurePower { friction, reference_pressure, exponent, offset_pressure }).unwrap();
