@@ -37,7 +37,7 @@ fn a_velocity_step_gives_the_direct_effect_at_once_and_the_steady_state_in_the_e
     for evolution in ALL {
         let law = RateAndState { evolution, ..LAW };
         let (before, age) = slide(&law, v1, 1e5, 10.0);
-        let (at_once, _) = slide(&law, v2, 1e-14 / v2, age);
+        let (at_once, _) = slide(&law, v2, 1e-17 / v2, age);
         let (end, _) = slide(&law, v2, 10.0, age);
         close(at_once - before, 0.01 * (v2 / v1).ln(), 1e-10);
         close(end - before, -0.005 * (v2 / v1).ln(), 1e-12);
