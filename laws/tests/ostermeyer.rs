@@ -54,8 +54,9 @@ fn the_approach_at_constant_power_converges_with_first_order_to_the_matrix_expon
     let expected = exact(power, t, start);
     let end = |n: u32| (0..n).fold(start, |old, _| advance(&LAW, power, t / f64::from(n), old));
     for n in [200, 400, 800] {
-        for i in 0..2 {
-            close((end(n)[i] - expected[i]) / (end(2 * n)[i] - expected[i]), 2.0, 0.02);
+        let [coarse, fine] = [end(n), end(2 * n)];
+        for ((coarse, fine), expected) in coarse.into_iter().zip(fine).zip(expected) {
+            close((coarse - expected) / (fine - expected), 2.0, 0.02);
         }
     }
 }
