@@ -1,14 +1,22 @@
 //! The laws that come with the program, one file each.
 
 mod bengisu_akay;
+mod bristle;
 mod cohesion_cap;
 mod coulomb;
+mod dahl;
+mod elasto_plastic;
 mod frictionless;
+mod heated;
 mod huemer;
 mod logarithmic_rate;
+mod lugre;
+mod ostermeyer;
 mod persson;
 mod power_rate;
 mod pressure_power;
+mod rate_and_state;
+mod regularised;
 mod savkoor;
 mod shaw;
 mod stribeck;
@@ -16,14 +24,22 @@ mod thirion;
 mod tresca;
 
 pub use bengisu_akay::BengisuAkay;
+pub use bristle::Damping;
 pub use cohesion_cap::CohesionCap;
 pub use coulomb::Coulomb;
+pub use dahl::Dahl;
+pub use elasto_plastic::ElastoPlastic;
 pub use frictionless::Frictionless;
+pub use heated::{Fading, Heated};
 pub use huemer::Huemer;
 pub use logarithmic_rate::LogarithmicRate;
+pub use lugre::LuGre;
+pub use ostermeyer::Ostermeyer;
 pub use persson::Persson;
 pub use power_rate::PowerRate;
 pub use pressure_power::PressurePower;
+pub use rate_and_state::{Evolution, RateAndState};
+pub use regularised::{Regularised, Shape};
 pub use savkoor::Savkoor;
 pub use shaw::{Shaw, Transition};
 pub use stribeck::Stribeck;
