@@ -187,7 +187,7 @@ fn table(course: &Course) -> Table {
 
 fn pair(contact: &ContactSpec, bodies: &Bodies, key: &KeyPath) -> Result<PairSpec, SceneError> {
     let law = asperity_laws::parse(contact.law.clone());
-    let law = law.map_err(|error| Issue::value(key.at("law").at(error.key()), error.to_string()))?;
+    let law = law.map_err(|error| law_issue(&error, key))?;
     let numerics = &contact.numerics;
     Ok(PairSpec {
         nonmortar: (contact.nonmortar.body.clone(), contact.nonmortar.edge),
