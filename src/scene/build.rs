@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::issue::{Issue, KeyPath, SceneError, listed};
 use super::motion::{Course, Motion};
 use super::numerics::{Integration, Projection, Sites, stable_degrees};
+use super::rules::law_issue;
 use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
 use crate::contact;

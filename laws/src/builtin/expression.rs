@@ -116,6 +116,6 @@ inventory::submit! {
             ), "internal variables, each advanced by its rate").or("none"),
             Parameter::new("temperature", Unit::TEMPERATURE, Range::Number, "T where the scene has none").or("none, T is not used"),
         ],
-        reference: "written in the scene",
+        reference: "written in the scene: threshold = \"mu*p\", parameters = { mu = 0.3 }",
     }
 }
