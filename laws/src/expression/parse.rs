@@ -4,7 +4,7 @@
 
 use super::{
     Symbol, Symbols,
-    functions::{UNARY, VARIADIC, power_of},
+    functions::{UNARY, VARIADIC},
     program::{DEPTH, Instruction, Op, Program, pointed},
 };
 use crate::dual::{abs, constant};
@@ -66,11 +66,11 @@ impl<'a> Parser<'a> {
     /// Length, strength to the left, strength to the right, and meaning of the operator ahead.
     fn operator(&mut self) -> Option<(usize, u8, u8, Op)> {
         Some(match self.peek()? {
-            '+' => (1, 1, 2, Op::Binary(|a, b| a + b)),
-            '-' => (1, 1, 2, Op::Binary(|a, b| a - b)),
+            '+' => (1, 1, 2, Op::Plus),
+            '-' => (1, 1, 2, Op::Minus),
             '*' if self.rest().starts_with("**") => (2, 8, 7, Op::Power),
-            '*' => (1, 3, 4, Op::Binary(|a, b| a * b)),
-            '/' => (1, 3, 4, Op::Binary(|a, b| a / b)),
+            '*' => (1, 3, 4, Op::Times),
+            '/' => (1, 3, 4, Op::Over),
             '^' => (1, 8, 7, Op::Power),
             _ => return None,
         })
@@ -194,16 +194,12 @@ impl<'a> Parser<'a> {
 
     /// Adds an instruction; what has a value now is computed now.
     fn emit(&mut self, op: Op, span: Range<usize>) -> Result<(), Wrong> {
-        let number = |back: usize| {
-            let instruction = self.code.len().checked_sub(back).and_then(|k| self.code.get(k));
-            instruction.and_then(|i| if let Op::Constant(x) = i.op { Some(x) } else { None })
-        };
-        let (operands, op) = match (op, number(2), number(1)) {
-            (Op::Binary(f), Some(a), Some(b)) => (2, Op::Constant(f(constant(a), constant(b)).re)),
-            (Op::Power, Some(a), Some(b)) => (2, Op::Constant(power_of(constant(a), constant(b)).re)),
-            (Op::Unary(f), _, Some(x)) => (1, Op::Constant(f(constant(x)).re)),
-            (Op::Power, _, Some(n)) => (1, Op::PowerBy(n)),
-            (op, ..) => (0, op),
+        let number = |i: &Instruction| if let Op::Constant(x) = i.op { Some(constant(x)) } else { None };
+        let operands = &self.code[self.code.len() - op.operands()..];
+        let (operands, op) = match (operands.iter().map(number).collect::<Option<Vec<_>>>(), op, operands.last()) {
+            (Some(numbers), op, Some(_)) => (numbers.len(), Op::Constant(op.apply(&numbers, &[]).re)),
+            (None, Op::Power, Some(Instruction { op: Op::Constant(n), .. })) => (1, Op::PowerBy(*n)),
+            (_, op, _) => (0, op),
         };
         self.code.truncate(self.code.len() - operands);
         self.height = self.height - operands - op.operands() + 1;

@@ -8,7 +8,7 @@ use crate::dual::{Dual, constant, derivatives};
 use std::{ops::Range, sync::Arc};
 
 /// Most operands that may wait at a time; `a + b*(c + d*e)` has five.
-pub(super) const DEPTH: usize = 24;
+pub(super) const DEPTH: usize = 16;
 
 /// One step of a program: takes its operands off the stack and puts its result there.
 #[derive(Clone, Debug)]
@@ -17,6 +17,10 @@ pub(super) enum Op {
     Load(usize),
     Unary(Unary),
     Binary(Binary),
+    Plus,
+    Minus,
+    Times,
+    Over,
     /// A power whose exponent is no number.
     Power,
     PowerBy(f64),
@@ -24,12 +28,32 @@ pub(super) enum Op {
 }
 
 impl Op {
+    /// The result for operands at the end of `stack`.
+    #[inline]
+    pub(super) fn apply(&self, stack: &[Dual], slots: &[Dual]) -> Dual {
+        let right = || stack[stack.len() - 1];
+        let left = || stack[stack.len() - 2];
+        match self {
+            Self::Constant(x) => constant(*x),
+            Self::Load(slot) => slots[*slot],
+            Self::Unary(f) => f(right()),
+            Self::PowerBy(n) => power_by(right(), *n),
+            Self::Curve(curve) => curve.value(right()),
+            Self::Plus => left() + right(),
+            Self::Minus => left() - right(),
+            Self::Times => left() * right(),
+            Self::Over => left() / right(),
+            Self::Binary(f) => f(left(), right()),
+            Self::Power => power_of(left(), right()),
+        }
+    }
+
     /// Number of values taken off the stack.
     pub(super) fn operands(&self) -> usize {
         match self {
             Self::Constant(_) | Self::Load(_) => 0,
             Self::Unary(_) | Self::PowerBy(_) | Self::Curve(_) => 1,
-            Self::Binary(_) | Self::Power => 2,
+            Self::Binary(_) | Self::Plus | Self::Minus | Self::Times | Self::Over | Self::Power => 2,
         }
     }
 }
@@ -85,15 +109,7 @@ impl Program {
         let mut stack = [constant(0.0); DEPTH];
         let mut top = 0;
         for instruction in &self.code {
-            let result = match &instruction.op {
-                Op::Constant(x) => constant(*x),
-                Op::Load(slot) => slots[*slot],
-                Op::Unary(f) => f(stack[top - 1]),
-                Op::PowerBy(n) => power_by(stack[top - 1], *n),
-                Op::Curve(curve) => curve.value(stack[top - 1]),
-                Op::Binary(f) => f(stack[top - 2], stack[top - 1]),
-                Op::Power => power_of(stack[top - 2], stack[top - 1]),
-            };
+            let result = instruction.op.apply(&stack[..top], slots);
             see(instruction, &result);
             top -= instruction.op.operands();
             stack[top] = result;
