@@ -102,6 +102,10 @@ refuses! {
         says ["-0.3", "a number >= 0"];
     law_parameter_not_a_number: "friction = 0.3" => "friction = nan", at "law = ", key "contact.0.law.friction",
         says ["NaN", "a finite number"];
+    law_formula: "type = \"coulomb\", friction = 0.3" => "type = \"expression\", threshold = \"0.3*q\"", at "law = ",
+        key "contact.0.law.threshold", says ["unknown symbol `q`", "character 5:\n    0.3*q\n        ^"];
+    law_state: "type = \"coulomb\", friction = 0.3" => "type = \"expression\", threshold = \"p\", states = {\nz = { rate = \"v*\" } }",
+        at "z = ", key "contact.0.law.states.z.rate", says ["expected here", "character 3:\n    v*\n      ^"];
     law_missing: "law = { type = \"coulomb\", friction = 0.3 }" => "", at "[[contact]]", key "contact.0.law",
         says ["missing key `law`", "type = \"coulomb\""];
     law_without_type: "type = \"coulomb\", friction" => "friction", at "law = ", key "contact.0.law.type",

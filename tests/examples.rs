@@ -8,7 +8,8 @@ use asperity::model::{ContactStatus, InterfaceRow, Record};
 use asperity::output::tables::{read_history, read_interface};
 
 /// Scenes with a test of their own below.
-const SCENES: [&str; 6] = ["cattaneo_mindlin", "hertz", "incline", "multi_asperity", "patch_test", "single_asperity"];
+const SCENES: [&str; 7] =
+    ["cattaneo_mindlin", "expression_law", "hertz", "incline", "multi_asperity", "patch_test", "single_asperity"];
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples")
@@ -110,6 +111,23 @@ fn multi_asperity_never_loses_contact_and_repeats_itself() {
     let work = late.external_work - early.external_work;
     let kept = late.strain_energy - early.strain_energy + late.dissipated - early.dissipated;
     assert!((work / kept - 1.0).abs() < 0.05, "work {work}, stored and dissipated {kept}");
+}
+
+#[test]
+fn expression_law_weakens_with_the_slip_of_each_site() {
+    let (history, rows) = run("expression_law", &[]);
+    let slipping: Vec<&InterfaceRow> = rows.iter().filter(|row| row.status == ContactStatus::Slip).collect();
+    for row in &slipping {
+        let friction = 0.3 + 0.3 * (-row.variables[0] / 0.1).exp();
+        assert!((row.traction.abs() / row.pressure / friction - 1.0).abs() < 1e-8, "{row:?}");
+    }
+    let reached = |z: f64| slipping.iter().any(|row| row.variables[0] > z);
+    assert!(reached(0.3), "some site has slid far");
+    assert!(history.iter().any(|record| record.mu_global > 1.2), "the first touch has static friction");
+    let forgotten = |row: &InterfaceRow| row.status != ContactStatus::Open || row.variables[0] == 0.0;
+    assert!(rows.iter().all(forgotten), "an open site forgets its slip");
+    let (history, _) = run("expression_law", &["contact.0.law.parameters.mu_s=0.3"]);
+    assert_identity(&history, 0.3);
 }
 
 #[test]

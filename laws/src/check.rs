@@ -17,7 +17,7 @@
 //! | `mirror` | reversed slip history: same bound, opposite traction |
 //! | `dissipation` | a direct law never gives back more than was put in, at constant pressure from the virgin state |
 //! | `refinement` | one path in ever more steps: response converges with first order |
-//! | `units` | the law in other units of stress, length, time, temperature gives the same response in those units |
+//! | `units` | the law in other units of stress, length, time, temperature gives the same response in those units; left out for a law with a parameter whose unit nobody declared ([`FrictionLaw::units`]) |
 //! | `round trip` | JSON and TOML give back a law with the same answers |
 
 mod form;
@@ -25,7 +25,7 @@ mod path;
 mod point;
 mod probe;
 
-use crate::{FrictionLaw, Kind, find};
+use crate::{FrictionLaw, find};
 pub use probe::{Sample, Step};
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 
@@ -111,11 +111,4 @@ fn runner(cases: u32) -> TestRunner {
 /// `Err(message)` unless the condition holds.
 fn ensure(condition: bool, message: impl FnOnce() -> String) -> Result<(), String> {
     if condition { Ok(()) } else { Err(message()) }
-}
-
-fn kind(response: &crate::Response) -> Kind {
-    match response {
-        crate::Response::Threshold(_) => Kind::SetValued,
-        crate::Response::Traction(_) => Kind::Direct,
-    }
 }

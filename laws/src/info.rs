@@ -1,6 +1,6 @@
 //! What a law says about itself: dimensions, ranges and the record shown by `asperity laws`.
 
-use std::fmt;
+use std::{fmt, str::FromStr};
 
 /// Documentation of a law, submitted beside it with `inventory::submit! { LawInfo { .. } }`; the parser, the range checks, the
 /// unit check of the conformance kit and the JSON schema read it, so each range is written once.
@@ -27,6 +27,8 @@ pub enum Kind {
     SetValued,
     /// Traction as a function ([`crate::Response::Traction`]).
     Direct,
+    /// One of the two by its parameters; [`crate::kind`] tells which.
+    Either,
 }
 
 /// One parameter of a law.
@@ -69,6 +71,8 @@ pub enum Range {
     Between(f64, f64),
     /// One of these words.
     Choice(&'static [&'static str]),
+    /// A text, described in words; checked by the law itself.
+    Text(&'static str),
     /// Anything else, described in words; checked by the law itself.
     Other(&'static str),
 }
@@ -82,7 +86,7 @@ impl Range {
                 Self::AtLeast(low) => x >= low,
                 Self::Above(low) => x > low,
                 Self::Between(low, high) => low <= x && x <= high,
-                Self::Choice(_) | Self::Other(_) => false,
+                Self::Choice(_) | Self::Text(_) | Self::Other(_) => false,
             }
     }
 }
@@ -95,7 +99,7 @@ impl fmt::Display for Range {
             Self::Above(low) => write!(f, "a number > {low}"),
             Self::Between(low, high) => write!(f, "a number from {low} to {high}"),
             Self::Choice(words) => write!(f, "one of {}", words.join(", ")),
-            Self::Other(words) => write!(f, "{words}"),
+            Self::Text(words) | Self::Other(words) => write!(f, "{words}"),
         }
     }
 }
@@ -164,11 +168,49 @@ impl fmt::Display for Unit {
     }
 }
 
+/// A base unit with its power, `length^2`.
+fn factor(text: &str) -> Option<Unit> {
+    let (name, power) = text.split_once('^').unwrap_or((text, "1"));
+    let power = power.parse::<i8>().ok().filter(|power| power.unsigned_abs() < 10)?;
+    Some(match name {
+        "1" => Unit::ONE,
+        "stress" => Unit { stress: power, ..Unit::ONE },
+        "length" => Unit { length: power, ..Unit::ONE },
+        "time" => Unit { time: power, ..Unit::ONE },
+        "temperature" => Unit { temperature: power, ..Unit::ONE },
+        _ => return None,
+    })
+}
+
+impl FromStr for Unit {
+    type Err = String;
+
+    /// Reads products and quotients of `stress`, `length`, `time`, `temperature` and `1`, with powers: `length/time`, `stress length^-2`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || {
+            format!(
+                "`{text}` is no unit: such as `1`, `stress`, `length/time`, `length^2`, of stress, length, time, temperature"
+            )
+        };
+        let mut unit = Self::ONE;
+        for (place, product) in text.split('/').enumerate() {
+            for part in product.split('*') {
+                let factors: Vec<Self> =
+                    part.split_whitespace().map(factor).collect::<Option<_>>().ok_or_else(wrong)?;
+                let product = factors.into_iter().reduce(Self::times).ok_or_else(wrong)?;
+                unit = if place > 0 { unit.per(product) } else { unit.times(product) };
+            }
+        }
+        Ok(unit)
+    }
+}
+
 impl fmt::Display for LawInfo {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let kind = match self.kind {
             Kind::SetValued => "set-valued: bound on the traction, sharp stick",
             Kind::Direct => "direct: traction as a function",
+            Kind::Either => "set-valued or direct, by its parameters",
         };
         writeln!(f, "{} ({kind})\n  {}", self.name, self.equation)?;
         for p in self.parameters {

@@ -2,7 +2,8 @@
 
 use crate::{
     dual::{self, Dual},
-    info::Unit,
+    explain::explain,
+    info::{Kind, Unit},
     registry::LawError,
 };
 use std::{borrow::Cow, fmt::Debug};
@@ -49,6 +50,20 @@ pub trait FrictionLaw: Debug + Send + Sync {
         None
     }
 
+    /// What is not finite, or negative where it may not be, in the answer at this point, and at which values: the message for a run that
+    /// ends there. `None` where the answer is sound.
+    fn explain(&self, at: &InterfacePoint, old: &[f64]) -> Option<String> {
+        let mut new = vec![dual::constant(f64::NAN); old.len()];
+        let response = self.response(at, old, &mut new);
+        explain(self.typetag_name(), &self.variables(), at, old, &response, &new)
+    }
+
+    /// Units of the numbers in the table of the law by dotted key (`parameters.vs.value`), for a law whose record cannot know them;
+    /// an entry without one leaves the unit check of the conformance kit out. `None`: as in [`crate::LawInfo`].
+    fn units(&self) -> Option<Vec<(String, Option<Unit>)>> {
+        None
+    }
+
     /// True if the answer is `Threshold(0)` at every point for ever: the engine then models no tangential unknowns at all.
     fn frictionless(&self) -> bool {
         false
@@ -70,6 +85,14 @@ impl Response {
     pub fn value(&self) -> Dual {
         match self {
             Self::Threshold(x) | Self::Traction(x) => *x,
+        }
+    }
+
+    /// Which of the two it is.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::Threshold(_) => Kind::SetValued,
+            Self::Traction(_) => Kind::Direct,
         }
     }
 }

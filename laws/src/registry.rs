@@ -3,8 +3,9 @@
 //! A law of a foreign crate is linked only if the program names the crate: `use my_laws as _;`.
 
 use crate::{
-    info::{LawInfo, Parameter, Range},
-    law::FrictionLaw,
+    dual::constant,
+    info::{Kind, LawInfo, Parameter, Range},
+    law::{FrictionLaw, InterfacePoint},
 };
 use schemars::{Schema, SchemaGenerator, json_schema};
 use toml::{Table, Value};
@@ -73,7 +74,7 @@ pub enum LawError {
     Invalid {
         /// Name of the law.
         law: String,
-        /// Offending key, `type` if it is not known.
+        /// Offending key, dotted if nested, `type` if it is not known.
         key: String,
         /// Reason.
         message: String,
@@ -86,7 +87,8 @@ impl LawError {
         Self::Invalid { law: law.into(), key: key.into(), message: message.into() }
     }
 
-    /// The key in the table of the law to which the message belongs; `type` where it is the law as a whole.
+    /// The key in the table of the law to which the message belongs, dotted if it is a nested one (`states.z.rate`); `type` where it is
+    /// the law as a whole.
     pub fn key(&self) -> &str {
         match self {
             Self::NoType { .. } | Self::UnknownLaw { .. } | Self::Missing { .. } => "type",
@@ -109,6 +111,17 @@ pub fn linked() -> Vec<&'static LawInfo> {
 /// Documentation of one law.
 pub fn find(name: &str) -> Option<&'static LawInfo> {
     inventory::iter::<LawInfo>().find(|info| info.name == name)
+}
+
+/// Whether a law is set-valued or direct; `None` if it is not linked.
+pub fn kind(law: &dyn FrictionLaw) -> Option<Kind> {
+    let declared = find(law.typetag_name())?.kind;
+    if declared != Kind::Either {
+        return Some(declared);
+    }
+    let old: Vec<f64> = law.variables().iter().map(|variable| variable.initial).collect();
+    let mut new = vec![constant(f64::NAN); old.len()];
+    Some(law.response(&InterfacePoint::new(0.0, 0.0, 1.0), &old, &mut new).kind())
 }
 
 /// Reads a law from its table in a scene, `{ type = "coulomb", friction = 0.3 }`.
@@ -162,9 +175,14 @@ fn law_schema(info: &LawInfo) -> serde_json::Value {
             Range::Above(low) => serde_json::json!({ "type": "number", "exclusiveMinimum": low }),
             Range::Between(low, high) => serde_json::json!({ "type": "number", "minimum": low, "maximum": high }),
             Range::Choice(words) => serde_json::json!({ "enum": words }),
+            Range::Text(_) => serde_json::json!({ "type": "string" }),
             Range::Other(_) => serde_json::json!({}),
         };
-        schema["description"] = format!("{} [{}]", parameter.meaning, parameter.unit).into();
+        let words = match parameter.range {
+            Range::Text(words) | Range::Other(words) => format!("; {words}"),
+            _ => String::new(),
+        };
+        schema["description"] = format!("{} [{}]{words}", parameter.meaning, parameter.unit).into();
         properties.insert(parameter.name.into(), schema);
     }
     let needed = info.parameters.iter().filter(|p| p.default.is_none()).map(|p| p.name);
@@ -197,7 +215,7 @@ fn check(info: &LawInfo, table: &Table) -> Result<(), LawError> {
 
 fn check_value(info: &LawInfo, parameter: &Parameter, value: &Value) -> Result<(), LawError> {
     let admissible = match (parameter.range, value) {
-        (Range::Other(_), _) => true,
+        (Range::Other(_), _) | (Range::Text(_), Value::String(_)) => true,
         (Range::Choice(words), Value::String(word)) => words.contains(&word.as_str()),
         (range, Value::Float(x)) => range.contains(*x),
         (range, Value::Integer(i)) => range.contains(*i as f64),
@@ -224,8 +242,8 @@ fn unknown_law(name: &str) -> LawError {
 }
 
 /// The most similar candidate, if it is similar enough to be meant.
-fn nearest(word: &str, candidates: &[&'static str]) -> Option<&'static str> {
-    let distance = |candidate: &&&'static str| strsim::damerau_levenshtein(word, candidate);
+pub(crate) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let distance = |candidate: &&&str| strsim::damerau_levenshtein(word, candidate);
     let best = candidates.iter().min_by_key(distance)?;
     (distance(&best) <= 1 + best.len() / 3).then_some(*best)
 }

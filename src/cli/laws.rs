@@ -26,6 +26,7 @@ fn table(laws: &[&LawInfo]) -> String {
         let kind = match info.kind {
             Kind::SetValued => "set-valued",
             Kind::Direct => "direct",
+            Kind::Either => "either",
         };
         text += &format!("{:width$}  {kind:10}  {}\n", info.name, info.equation);
     }

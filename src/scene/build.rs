@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::issue::{Issue, KeyPath, SceneError, listed};
 use super::motion::{Course, Motion};
 use super::numerics::{Integration, Projection, Sites, stable_degrees};
+use super::rules::law_issue;
 use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
 use crate::contact;
@@ -187,7 +188,7 @@ fn table(course: &Course) -> Table {
 
 fn pair(contact: &ContactSpec, bodies: &Bodies, key: &KeyPath) -> Result<PairSpec, SceneError> {
     let law = asperity_laws::parse(contact.law.clone());
-    let law = law.map_err(|error| Issue::value(key.at("law").at(error.key()), error.to_string()))?;
+    let law = law.map_err(|error| law_issue(&error, key))?;
     let numerics = &contact.numerics;
     Ok(PairSpec {
         nonmortar: (contact.nonmortar.body.clone(), contact.nonmortar.edge),

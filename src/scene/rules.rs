@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use asperity_laws::LawError;
+
 use super::issue::{Issue, KeyPath};
 use super::motion::{Course, DriveSpec, Motion, SupportSpec};
 use super::spec::{BodySpec, ContactSpec, Scene};
@@ -194,6 +196,12 @@ fn contact_rules(scene: &Scene, contact: &ContactSpec, key: &KeyPath, issues: &m
         ));
     }
     if let Err(error) = asperity_laws::parse(contact.law.clone()) {
-        issues.push(Issue::value(key.at("law").at(error.key()), error.to_string()));
+        issues.push(law_issue(&error, key));
     }
+}
+
+/// What is wrong with the law of a contact; the keys of laws are dotted.
+pub(super) fn law_issue(error: &LawError, contact: &KeyPath) -> Issue {
+    let key = error.key().split('.').fold(contact.at("law"), |path, key| path.at(key));
+    Issue::value(key, error.to_string())
 }

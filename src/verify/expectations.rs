@@ -1,6 +1,6 @@
 //! What the records of a model can be held to.
 
-use asperity_laws::{FrictionLaw, Kind, find};
+use asperity_laws::{FrictionLaw, Kind, kind};
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Control, Model, Pair};
@@ -59,9 +59,7 @@ fn coefficient(law: &dyn FrictionLaw) -> Option<f64> {
 
 /// A direct law with memory may store and return work (bristles); a law that is not registered may do anything.
 fn dissipates(law: &dyn FrictionLaw) -> bool {
-    let written = serde_json::to_value(law).ok();
-    let name = written.as_ref().and_then(|law| law.get("type")?.as_str());
-    name.and_then(find).is_some_and(|info| info.kind == Kind::SetValued || law.variables().is_empty())
+    kind(law).is_some_and(|kind| kind == Kind::SetValued || law.variables().is_empty())
 }
 
 /// Fixed displacements do no work; everything else must be at most one motion per component, of the driven body.

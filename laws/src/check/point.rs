@@ -89,7 +89,7 @@ pub(super) fn tangent(law: &dyn FrictionLaw, sample: &Sample) -> Result<(), Stri
 /// differences at the last such increment, as text. `one_sided`: `x` must not become negative.
 fn compare(x: f64, slope: f64, one_sided: bool, f: impl Fn(f64) -> f64) -> Result<(), String> {
     let increments: Vec<f64> = match x.abs() {
-        0.0 => (0..45).map(|k| 10f64.powi(6 - k)).collect(),
+        0.0 => (0..110).map(|k| 10f64.powi(6 - k)).collect(),
         size => (3..8).map(|k| size * 10f64.powi(-k)).collect(),
     };
     let middle = f(0.0);

@@ -118,9 +118,15 @@ fn near(hints: Vec<f64>) -> impl Strategy<Value = f64> {
     (proptest::sample::select(hints), -2.0..2.0).prop_map(|(scale, x): (f64, f64)| scale * 10f64.powf(x))
 }
 
+/// Dotted keys of the parameters with their units, where these are known.
+pub(super) fn quantities(law: &dyn FrictionLaw, info: &LawInfo) -> Vec<(String, Option<Unit>)> {
+    law.units().unwrap_or_else(|| info.parameters.iter().map(|p| (p.name.into(), Some(p.unit))).collect())
+}
+
 /// Values of the parameters of this unit.
 fn hints(law: &dyn FrictionLaw, info: &LawInfo, unit: Unit) -> Vec<f64> {
-    let table = toml::Table::try_from(law).unwrap_or_default();
-    let values = info.parameters.iter().filter(|p| p.unit == unit).filter_map(|p| table.get(p.name));
-    values.filter_map(toml::Value::as_float).map(f64::abs).filter(|x| *x > 0.0 && x.is_finite()).collect()
+    let table = toml::Value::try_from(law).ok();
+    let value = |key: &str| key.split('.').try_fold(table.as_ref()?, |value, key| value.get(key))?.as_float();
+    let keys = quantities(law, info).into_iter().filter(|(_, known)| *known == Some(unit));
+    keys.filter_map(|(key, _)| value(&key)).map(f64::abs).filter(|x| *x > 0.0 && x.is_finite()).collect()
 }
