@@ -26,6 +26,7 @@ mod labels;
 mod overlay;
 mod palette;
 mod png;
+pub mod point;
 mod sampling;
 #[cfg(test)]
 pub(crate) mod synthetic;
