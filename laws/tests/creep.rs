@@ -146,3 +146,40 @@ fn prandtl_tomlinson_is_smooth_up_to_eta_one_and_then_pays_for_each_jump() {
     let (above, exact) = (pulled(1.1, 16_000), set_free(1.1));
     assert!(above > 0.0 && (above / exact - 1.0).abs() < 0.05, "{above:e} of {exact:e}");
 }
+
+/// `q = c v`: with mass and spring an overdamped oscillator.
+#[derive(Debug, Serialize, Deserialize)]
+struct Viscous {
+    viscosity: f64,
+}
+
+#[typetag::serde(name = "test-viscous")]
+impl FrictionLaw for Viscous {
+    fn response(&self, at: &InterfacePoint, _: &[f64], _: &mut [Dual]) -> Response {
+        Response::Traction(at.velocity() * self.viscosity)
+    }
+}
+
+#[test]
+fn a_viscous_slider_relaxes_as_the_oscillator_does() {
+    let slider = Slider {
+        mass: 1.0,
+        stiffness: 4.0,
+        velocity: 0.0,
+        pressure: 1.0,
+        initial_force: 8.0,
+        initial_velocity: 0.0,
+        states: None,
+    };
+    // x = 2 - f/4 with x'' + 5 x' + 4 x = 8, roots -1 and -4
+    let exact = 8.0 * (4.0 * (-1.0_f64).exp() - (-4.0_f64).exp()) / 3.0;
+    let error = |steps: usize| slider.run(&Viscous { viscosity: 5.0 }, 1.0, steps).last().force - exact;
+    let [coarse, fine] = [1000, 2000].map(error);
+    assert!((coarse / fine - 2.0).abs() < 0.01, "first order: {coarse:e}, {fine:e}");
+    assert!((2.0 * fine - coarse).abs() < 1e-6, "extrapolated: {:e}", 2.0 * fine - coarse);
+    // so stiff that the inertia does nothing: creep without ringing
+    let stiff = Slider { mass: 1e-9, ..slider }.run(&Viscous { viscosity: 5.0 }, 10.0, 1000);
+    let smooth =
+        stiff.records[2..].windows(2).all(|pair| pair[1].velocity < pair[0].velocity && pair[1].velocity > 0.0);
+    assert!(smooth, "velocity falls steadily");
+}

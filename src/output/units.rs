@@ -58,14 +58,19 @@ impl UnitLabels {
         let part = |(label, power): (&String, i8)| match power {
             0 => None,
             1 => Some(label.clone()),
-            power => Some(format!("{label}^{{{power}}}").replace('-', "−")),
+            power => Some(format!("{label}^{power}")),
         };
         if known { powers.into_iter().filter_map(part).collect::<Vec<_>>().join(" ") } else { String::new() }
     }
 
-    /// As [`Self::axis`] for any dimension.
+    /// As [`Self::axis`] for any dimension, with the powers in the markup of figures.
     pub fn axis_of(&self, name: &str, unit: Unit) -> String {
-        named(name, self.of(unit))
+        let label = self.of(unit);
+        let raised = |part: &str| match part.split_once('^') {
+            Some((base, power)) => format!("{base}^{{{}}}", power.replace('-', "−")),
+            None => part.to_owned(),
+        };
+        named(name, label.split(' ').map(raised).collect::<Vec<_>>().join(" "))
     }
 
     fn product(&self, power: &str) -> String {
@@ -99,5 +104,10 @@ mod tests {
         assert_eq!(units.axis("W", Quantity::Energy), "W / (MPa mm^2)");
         assert_eq!(units.axis("t", Quantity::Time), "t");
         assert_eq!(UnitLabels::default().axis("F", Quantity::Force), "F");
+        assert_eq!(units.of(Unit::VELOCITY), "");
+        let units = UnitLabels { time: "s".into(), ..units };
+        assert_eq!(units.of(Unit::VELOCITY), "mm s^-1");
+        assert_eq!(units.axis_of("v", Unit::VELOCITY), "v / (mm s^{−1})");
+        assert_eq!(units.axis_of("z", Unit::ONE), "z");
     }
 }

@@ -20,7 +20,7 @@ pub struct Record {
     pub velocity: f64,
     /// Pressure (stress).
     pub pressure: f64,
-    /// Tangential traction against the slip (stress); while a mass slides, that of the middle of the step.
+    /// Tangential traction against the slip (stress); of a sliding mass under a set-valued law that of the middle of the step.
     pub traction: f64,
     /// Force that moves the point (stress): that of the spring; on a prescribed path the traction.
     pub force: f64,

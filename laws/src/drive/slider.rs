@@ -14,15 +14,15 @@ use crate::{FrictionLaw, Response, dual};
 /// m v' = f - q,    f' = k (V - v)            q: traction of the law, f: force of the spring
 /// ```
 ///
-/// With the slip `s` of a step as the only unknown, `v = s/dt` in its middle, both are one equation
+/// With the slip `s` of a step as the only unknown both are one equation
 ///
 /// ```text
-/// f0 + theta k V dt + 2 m v0/dt - (theta k + 2 m/dt^2) s = q(s),      v1 = 2 s/dt - v0
+/// f0 + k V dt/gamma + gamma m v0/dt - (k/gamma + gamma m/dt^2) s = q(s),      v1 = gamma s/dt - (gamma - 1) v0
 /// ```
 ///
-/// With mass `theta = 1/2`, the midpoint rule: second order as long as the law has no states, and it conserves energy but for `q s`.
-/// Without mass `theta = 1`: equilibrium at the end of the step. Where several slips balance, the one nearest in the direction of the
-/// unbalanced force is taken.
+/// A mass under a set-valued law takes `gamma = 2`, the midpoint rule: second order as long as the law has no states, and it conserves
+/// energy but for `q s`. All else takes `gamma = 1`, backward Euler: first order, and steady where a direct law is so stiff that the
+/// midpoint rule would ring. Where several slips balance, the one nearest in the direction of the unbalanced force is taken.
 ///
 /// A set-valued law sticks exactly: `s = 0` as long as `|f| <= b`. With mass the end of sticking and of sliding are found to
 /// round-off and end a step, so that stick and slip never share one. States follow the law's own rule, usually of first order.
@@ -50,6 +50,7 @@ struct Trial<'a> {
     law: &'a dyn FrictionLaw,
     from: &'a Record,
     dt: f64,
+    gamma: f64,
 }
 
 impl Slider {
@@ -64,15 +65,11 @@ impl Slider {
         let mut history = History::from(start);
         for step in 1..=steps {
             let end = duration * (step as f64 / steps as f64);
-            if !history.reach(end, |from, dt| Trial { slider: self, law, from, dt }.attempt()) {
+            if !history.reach(end, |from, dt| Trial { slider: self, law, from, dt, gamma: 1.0 }.attempt()) {
                 break;
             }
         }
         history
-    }
-
-    fn inertial(&self) -> bool {
-        self.mass > 0.0
     }
 }
 
@@ -81,12 +78,11 @@ impl Trial<'_> {
         let at_rest = self.ask(0.0)?;
         match at_rest.response {
             Response::Traction(_) => self.creep(),
-            Response::Threshold(bound) if !self.slider.inertial() => match self.pull(self.dt).abs() <= bound.re {
+            Response::Threshold(bound) if self.slider.mass == 0.0 => match self.pull(self.dt).abs() <= bound.re {
                 true => self.reached(0.0),
                 false => self.slide(self.pull(self.dt).signum()),
             },
-            Response::Threshold(_) if self.from.velocity != 0.0 => self.slide(self.from.velocity.signum()),
-            Response::Threshold(_) => self.stick(),
+            Response::Threshold(_) => Self { gamma: 2.0, ..*self }.glide(),
         }
     }
 
@@ -107,12 +103,8 @@ impl Trial<'_> {
     /// `a` and `c` of the balance `a - c s = q`.
     fn balance(&self) -> [f64; 2] {
         let Slider { mass, stiffness, .. } = *self.slider;
-        if self.slider.inertial() {
-            let inertia = 2.0 * mass / self.dt;
-            [self.pull(0.5 * self.dt) + inertia * self.from.velocity, 0.5 * stiffness + inertia / self.dt]
-        } else {
-            [self.pull(self.dt), stiffness]
-        }
+        let inertia = self.gamma * mass / self.dt;
+        [self.pull(self.dt / self.gamma) + inertia * self.from.velocity, stiffness / self.gamma + inertia / self.dt]
     }
 
     /// What is left of the balance, for a set-valued law that slips in the direction `sign`.
@@ -129,7 +121,7 @@ impl Trial<'_> {
     /// A direct law: from the slip of unchanged velocity, or from rest where there is no inertia, along the unbalanced force.
     fn creep(&self) -> Result<Reached, String> {
         let going = self.from.velocity * self.dt;
-        let start = if self.slider.inertial() { going } else { 0.0 };
+        let start = if self.slider.mass > 0.0 { going } else { 0.0 };
         let residual = |slip: f64| self.residual(slip, 1.0);
         let first = residual(start)?;
         if first.value == 0.0 {
@@ -138,6 +130,11 @@ impl Trial<'_> {
         let ends = root::bracket(residual, start, first.value / self.balance()[1])?;
         let ends = ends.ok_or_else(|| format!("no slip balances the spring in a step of {:e}", self.dt))?;
         self.reached(root::solve(residual, ends, going)?)
+    }
+
+    /// A mass under a set-valued law.
+    fn glide(&self) -> Result<Reached, String> {
+        if self.from.velocity == 0.0 { self.stick() } else { self.slide(self.from.velocity.signum()) }
     }
 
     /// A mass at rest under a set-valued law: sticks to the end of the step, or until the spring overcomes the bound, or starts to slide.
@@ -165,7 +162,7 @@ impl Trial<'_> {
             let ends = [self.slip_to_rest(), force / stiffness];
             return self.reached(root::solve(|slip| self.residual(slip, sign), ends, self.from.velocity * self.dt)?);
         }
-        if !self.slider.inertial() || self.from.velocity == 0.0 {
+        if self.slip_to_rest() == 0.0 {
             return self.reached(0.0); // pulled back before it starts
         }
         let stop = self.of(root::event(self.dt, |dt| goes_on(&self.of(dt)))?);
@@ -174,7 +171,7 @@ impl Trial<'_> {
 
     /// Slip after which the velocity at the end of the step is zero.
     fn slip_to_rest(&self) -> f64 {
-        if self.slider.inertial() { 0.5 * self.from.velocity * self.dt } else { 0.0 }
+        (1.0 - 1.0 / self.gamma) * self.from.velocity * self.dt
     }
 
     fn reached(&self, slip: f64) -> Result<Reached, String> {
@@ -187,11 +184,8 @@ impl Trial<'_> {
             Response::Threshold(bound) if slip == 0.0 => force.clamp(-bound.re, bound.re),
             Response::Threshold(bound) => bound.re.copysign(slip),
         };
-        let velocity = match self.slider.inertial() {
-            true if slip == self.slip_to_rest() => 0.0, // exactly, whatever the round-off
-            true => 2.0 * slip / dt - from.velocity,
-            false => slip / dt,
-        };
+        let stops = slip == self.slip_to_rest(); // exactly, whatever the round-off
+        let velocity = if stops { 0.0 } else { self.gamma * slip / dt - (self.gamma - 1.0) * from.velocity };
         let record = Record {
             time: from.time + dt,
             slip: from.slip + slip,
