@@ -152,6 +152,19 @@ fn absent_files_unknown_laws_and_lone_options_are_bad_input() {
 }
 
 #[test]
+fn a_law_without_answer_is_told_with_time_and_values_and_the_rest_is_kept() {
+    let folder = folder("overflow", &PROBE.replacen("pressure = 2.0", "pressure = 1e10", 1).replace("0.4", "1e300"));
+    let output = probe(&folder, "coulomb");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    for part in ["1-velocity-steps: no step beyond time 0e0", "pressure 1e10", "no answer", "kept in out/law"] {
+        assert!(said.contains(part), "no {part} in\n{said}");
+    }
+    assert_eq!(column(&folder.join("out/law/1-velocity-steps.csv"), "slip"), [0.0]);
+    assert!(column(&folder.join("out/law/2-spring-slider.csv"), "slip").len() > 1000, "the others still run");
+}
+
+#[test]
 fn laws_point_to_the_probe() {
     let folder = folder("help", PROBE);
     for arguments in [["laws"].as_slice(), &["laws", "coulomb"]] {

@@ -84,7 +84,8 @@ fn states(records: &[Record], variables: &[Variable], units: &UnitLabels) -> Str
 }
 
 fn timed(records: &[Record], charts: Vec<Chart>, units: &UnitLabels) -> String {
-    let x_range = range(records.iter().map(|record| record.time), 0.0);
+    let [start, end] = range(records.iter().map(|record| record.time), 0.0);
+    let x_range = [start, end + 0.04 * (end - start)]; // room for a tick label at the end
     Column { x_label: units.axis_of("time", Unit::TIME), x_range, charts, ..Column::default() }.draw()
 }
 
