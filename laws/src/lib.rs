@@ -46,6 +46,7 @@
 
 pub mod builtin;
 pub mod check;
+pub mod drive;
 pub mod dual;
 pub mod evolve;
 mod explain;

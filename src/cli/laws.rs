@@ -1,16 +1,24 @@
-//! `asperity laws [NAME]`.
+//! `asperity laws [NAME] [--probe FILE]`.
 
 use asperity::laws::{Kind, LawInfo, find, linked};
 use asperity::scene::{Issue, KeyPath, SceneError};
 
-use super::outcome::{Exit, Failure, say};
+use std::path::Path;
 
-/// Prints all linked laws, or one of them in full.
-pub fn laws(name: Option<&str>) -> Result<Exit, Failure> {
-    match name {
-        None => say(&table(&linked()))?,
-        Some(name) => say(&in_full(find(name).ok_or_else(|| unknown(name))?))?,
+use super::outcome::{Exit, Failure, say};
+use super::probe::probe;
+
+/// Prints all linked laws or one of them in full, or drives one through the programmes of a file.
+pub fn laws(name: Option<&str>, file: Option<&Path>, out: Option<&Path>) -> Result<Exit, Failure> {
+    let Some(name) = name else {
+        say(&table(&linked()))?;
+        return Ok(Exit::Done);
+    };
+    let info = find(name).ok_or_else(|| unknown(name))?;
+    if let Some(file) = file {
+        return probe(info, file, out);
     }
+    say(&in_full(info))?;
     Ok(Exit::Done)
 }
 
@@ -30,11 +38,14 @@ fn table(laws: &[&LawInfo]) -> String {
         };
         text += &format!("{:width$}  {kind:10}  {}\n", info.name, info.equation);
     }
-    text + "\nAsk `asperity laws NAME` for parameters, units, ranges and the reference.\n"
+    text + "\nAsk `asperity laws NAME` for parameters, units, ranges and the reference,\nand `asperity laws NAME --probe FILE.toml` to drive one at a single contact point.\n"
 }
 
 fn in_full(info: &LawInfo) -> String {
     let needed = info.parameters.iter().filter(|parameter| parameter.default.is_none());
     let keys: String = needed.map(|parameter| format!(", {} = ...", parameter.name)).collect();
-    format!("{info}\n  in a scene: law = {{ type = \"{}\"{keys} }}\n", info.name)
+    format!(
+        "{info}\n  in a scene: law = {{ type = \"{}\"{keys} }}\n  on its own: asperity laws {} --probe FILE.toml (see examples/probe.toml)\n",
+        info.name, info.name
+    )
 }

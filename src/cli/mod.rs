@@ -3,6 +3,7 @@
 mod check;
 mod laws;
 mod outcome;
+mod probe;
 mod run;
 
 use std::path::PathBuf;
@@ -18,6 +19,7 @@ Examples:
   asperity check examples/single_asperity.toml
   asperity run examples/single_asperity.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
   asperity laws coulomb
+  asperity laws rate-and-state --probe examples/probe.toml
 
 Exit codes:
   0  done
@@ -50,9 +52,19 @@ enum Command {
     /// Nothing is computed and nothing is written. Exit code 2 if the scene cannot be used.
     Check(SceneArguments),
     /// List the friction laws linked into this program, or explain one: equation, parameters, units, ranges, reference.
+    ///
+    /// With --probe the law is driven at one contact point, without any mesh, through the programmes of a file (velocity
+    /// steps, slide-hold-slide, harmonic slip, spring slider), and a table and figures of each are written; see
+    /// examples/probe.toml.
     Laws {
         /// Name of a law, as in `law = { type = "NAME" }`.
         name: Option<String>,
+        /// Drive the law through the programmes of this file (TOML).
+        #[arg(long, value_name = "FILE", requires = "name")]
+        probe: Option<PathBuf>,
+        /// Folder of the results of --probe; made if it does not exist [default: out/<name of the file>].
+        #[arg(long, value_name = "DIR", requires = "probe")]
+        out: Option<PathBuf>,
     },
     /// Print the JSON schema of a scene.
     ///
@@ -91,7 +103,7 @@ pub fn dispatch(cli: Cli) -> ExitCode {
     let outcome = match &cli.command {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
-        Command::Laws { name } => laws::laws(name.as_deref()),
+        Command::Laws { name, probe, out } => laws::laws(name.as_deref(), probe.as_deref(), out.as_deref()),
         Command::Schema => schema(),
     };
     report(outcome)

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use asperity_laws::Variable;
+
 use super::run_json::{write_atomic, write_json};
 use super::tables::{HistoryWriter, InterfaceWriter};
 use super::vtu::FieldSeries;
@@ -94,6 +96,15 @@ impl RunFolder {
     /// The path and the operating system's reason.
     pub fn write_run(&self, value: &serde_json::Value) -> Result<(), OutputError> {
         write_json(&self.run_json(), value)
+    }
+
+    /// Writes `README.txt` of a law that was driven at one point: every column with its unit.
+    ///
+    /// # Errors
+    /// The path and the operating system's reason.
+    pub fn write_point_readme(&self, law: &str, units: &UnitLabels, variables: &[Variable]) -> Result<(), OutputError> {
+        let text = readme::point_text(law, units, variables);
+        write_atomic(&self.root.join("README.txt"), text.as_bytes())
     }
 
     /// Writes `README.txt`: every file and column with its unit.

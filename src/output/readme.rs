@@ -4,7 +4,9 @@
 
 use std::fmt::Write;
 
-use super::tables::{HISTORY_COLUMNS, INTERFACE_COLUMNS};
+use asperity_laws::{Unit, Variable};
+
+use super::tables::{HISTORY_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS};
 use super::units::{Quantity, UnitLabels};
 
 const HEAD: &str = "\
@@ -34,6 +36,23 @@ pub fn text(title: &str, units: &UnitLabels, variables: &[(String, String)]) -> 
     for (name, unit) in variables {
         let _ = writeln!(text, "{name:<18} {unit:<12} state variable of the friction law");
     }
+    text
+}
+
+/// Text of `README.txt` of a law that was driven at one point.
+pub fn point_text(law: &str, units: &UnitLabels, variables: &[Variable]) -> String {
+    let mut text = format!("Friction law {law} at one contact point. Units: {}\n\n", unit_line(units));
+    text.push_str("One csv for each programme, one row per step; the figures of each as SVG and PNG in figures/.\n");
+    text.push_str(
+        "Forces, masses and stiffnesses are per unit of area. Numbers read back bit for bit; nan = undefined.\n",
+    );
+    text.push_str("\nColumns: name, unit, meaning\n");
+    let mut line = |name: &str, unit: Unit, meaning: &str| {
+        let label = Some(units.of(unit)).filter(|label| !label.is_empty()).unwrap_or_else(|| unit.to_string());
+        let _ = writeln!(text, "{name:<18} {:<12} {meaning}", if unit == Unit::ONE { "-" } else { &label });
+    };
+    POINT_COLUMNS.iter().for_each(|(name, unit, meaning)| line(name, *unit, meaning));
+    variables.iter().for_each(|variable| line(&variable.name, variable.unit, "state variable of the friction law"));
     text
 }
 

@@ -1,5 +1,7 @@
 //! Labels of the consistent unit system a scene is written in. Labels only: nothing is ever converted.
 
+use asperity_laws::Unit;
+
 /// Names of the three base units; an empty string means "not given".
 ///
 /// Plane strain: forces are per unit of thickness (stress * length), energies per unit of thickness (stress * length^2).
@@ -49,6 +51,28 @@ impl UnitLabels {
         }
     }
 
+    /// Label of a dimension, empty if one of the base units it is made of was not given.
+    pub fn of(&self, unit: Unit) -> String {
+        let powers = [(&self.stress, unit.stress), (&self.length, unit.length), (&self.time, unit.time)];
+        let known = unit.temperature == 0 && powers.iter().all(|(label, power)| *power == 0 || !label.is_empty());
+        let part = |(label, power): (&String, i8)| match power {
+            0 => None,
+            1 => Some(label.clone()),
+            power => Some(format!("{label}^{power}")),
+        };
+        if known { powers.into_iter().filter_map(part).collect::<Vec<_>>().join(" ") } else { String::new() }
+    }
+
+    /// As [`Self::axis`] for any dimension, with the powers in the markup of figures.
+    pub fn axis_of(&self, name: &str, unit: Unit) -> String {
+        let label = self.of(unit);
+        let raised = |part: &str| match part.split_once('^') {
+            Some((base, power)) => format!("{base}^{{{}}}", power.replace('-', "−")),
+            None => part.to_owned(),
+        };
+        named(name, label.split(' ').map(raised).collect::<Vec<_>>().join(" "))
+    }
+
     fn product(&self, power: &str) -> String {
         if self.stress.is_empty() || self.length.is_empty() {
             return String::new();
@@ -81,11 +105,15 @@ impl UnitLabels {
 
     /// `name / unit` (the form of ISO 80000), or the bare name where no unit is known.
     pub fn axis(&self, name: &str, quantity: Quantity) -> String {
-        match self.label(quantity) {
-            unit if unit.is_empty() => name.to_owned(),
-            unit if unit.contains(' ') => format!("{name} / ({unit})"),
-            unit => format!("{name} / {unit}"),
-        }
+        named(name, self.label(quantity))
+    }
+}
+
+fn named(name: &str, unit: String) -> String {
+    match unit {
+        unit if unit.is_empty() => name.to_owned(),
+        unit if unit.contains(' ') => format!("{name} / ({unit})"),
+        unit => format!("{name} / {unit}"),
     }
 }
 
@@ -99,5 +127,10 @@ mod tests {
         assert_eq!(units.axis("W", Quantity::Energy), "W / (MPa mm^2)");
         assert_eq!(units.axis("t", Quantity::Time), "t");
         assert_eq!(UnitLabels::default().axis("F", Quantity::Force), "F");
+        assert_eq!(units.of(Unit::VELOCITY), "");
+        let units = UnitLabels { time: "s".into(), ..units };
+        assert_eq!(units.of(Unit::VELOCITY), "mm s^-1");
+        assert_eq!(units.axis_of("v", Unit::VELOCITY), "v / (mm s^{−1})");
+        assert_eq!(units.axis_of("z", Unit::ONE), "z");
     }
 }

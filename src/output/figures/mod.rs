@@ -27,6 +27,7 @@ mod labels;
 mod overlay;
 mod palette;
 mod png;
+pub mod point;
 mod sampling;
 mod states;
 #[cfg(test)]

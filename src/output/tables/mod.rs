@@ -2,9 +2,11 @@
 
 mod history;
 mod interface;
+mod point;
 
 pub use history::{HISTORY_COLUMNS, HistoryWriter, read_history};
 pub use interface::{INTERFACE_COLUMNS, InterfaceWriter, read_interface};
+pub use point::{POINT_COLUMNS, write_point};
 
 use std::fs::{self, File, OpenOptions};
 use std::path::Path;
