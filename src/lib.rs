@@ -30,5 +30,6 @@ pub mod solve;
 pub mod verify;
 pub mod output;
 pub mod scene;
+pub mod cli;
 
 pub use asperity_laws as laws;

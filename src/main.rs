@@ -1,11 +1,5 @@
-//! Command line of `asperity`; see `asperity --help`.
+//! The program `asperity`; see `asperity --help`.
 
-mod cli;
-
-use std::process::ExitCode;
-
-use clap::Parser;
-
-fn main() -> ExitCode {
-    cli::dispatch(cli::Cli::parse())
+fn main() -> std::process::ExitCode {
+    asperity::cli::main()
 }

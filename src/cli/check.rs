@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use asperity::contact::ContactDiscretization;
-use asperity::model::{Body, Control, Model, Motion, Pair};
-use asperity::scene::{Scene, build, time_plan};
-use asperity::verify::step_warnings;
+use crate::contact::ContactDiscretization;
+use crate::model::{Body, Control, Model, Motion, Pair};
+use crate::scene::{Scene, build, time_plan};
+use crate::verify::step_warnings;
 
 use super::SceneArguments;
 use super::outcome::{Exit, Failure, say};

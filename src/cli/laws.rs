@@ -1,7 +1,7 @@
 //! `asperity laws [NAME] [--probe FILE]`.
 
-use asperity::laws::{Kind, LawInfo, find, linked};
-use asperity::scene::{Issue, KeyPath, SceneError};
+use crate::laws::{Kind, LawInfo, find, linked};
+use crate::scene::{Issue, KeyPath, SceneError};
 
 use std::path::Path;
 

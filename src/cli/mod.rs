@@ -1,4 +1,6 @@
-//! Commands, their help, and what the exit code of each outcome is.
+//! Command line: commands, their help, and what the exit code of each outcome is.
+//!
+//! In the library, so that a program with laws of its own is three lines: see `examples/own_law`.
 
 mod check;
 mod laws;
@@ -9,7 +11,7 @@ mod run;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use asperity::scene::Scene;
+use crate::scene::Scene;
 use clap::{Args, Parser, Subcommand};
 
 use outcome::{Exit, Failure, report, say};
@@ -35,7 +37,7 @@ Exit codes:
 /// folder with tables, fields for ParaView and figures.
 #[derive(Debug, Parser)]
 #[command(version, after_help = AFTER_HELP, max_term_width = 100)]
-pub struct Cli {
+struct Cli {
     #[command(subcommand)]
     command: Command,
 }
@@ -98,9 +100,9 @@ struct RunArguments {
     quiet: bool,
 }
 
-/// Runs a command and turns its outcome into an exit code; errors go to stderr.
-pub fn dispatch(cli: Cli) -> ExitCode {
-    let outcome = match &cli.command {
+/// Runs the command of the command line and turns its outcome into an exit code; errors go to stderr.
+pub fn main() -> ExitCode {
+    let outcome = match &Cli::parse().command {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Laws { name, probe, out } => laws::laws(name.as_deref(), probe.as_deref(), out.as_deref()),

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
-use asperity::scene::SceneError;
+use crate::scene::SceneError;
 
 /// Exit codes; part of the surface of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

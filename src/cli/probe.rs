@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::laws::LawInfo;
-use asperity::output::RunFolder;
-use asperity::scene::Probe;
+use crate::laws::LawInfo;
+use crate::output::RunFolder;
+use crate::scene::Probe;
 
 use super::outcome::{Exit, Failure, say};
 

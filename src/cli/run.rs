@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use asperity::model::Record;
-use asperity::output::RunFolder;
-use asperity::scene::{self, RunReport, Scene};
-use asperity::solve::Status;
-use asperity::verify::{Finding, step_warnings};
+use crate::model::Record;
+use crate::output::RunFolder;
+use crate::scene::{self, RunReport, Scene};
+use crate::solve::Status;
+use crate::verify::{Finding, step_warnings};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::RunArguments;
@@ -124,7 +124,7 @@ impl Progress {
 
 #[cfg(test)]
 mod tests {
-    use asperity::verify::{Audit, Expectations};
+    use crate::verify::{Audit, Expectations};
 
     use super::*;
 
