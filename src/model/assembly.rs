@@ -79,6 +79,7 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: bool) -> O
         n: model.unknowns(),
         bulk: SparseMatrix { pattern: model.equations.pattern.clone(), values },
         interface: interface_entries(model, &interfaces),
+        boundary: model.boundary.clone(),
     });
     Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale })
 }

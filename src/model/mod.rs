@@ -61,6 +61,8 @@ pub struct Model {
     pub pairs: Vec<Pair>,
     /// Numbering of the displacement unknowns and pattern of the bulk stiffness.
     pub equations: Equations,
+    /// Displacement unknowns of the contact edges, in increasing order.
+    pub boundary: Arc<[usize]>,
     /// The body whose resistance and support are reported, see [`Record`].
     pub driven: usize,
     /// Stress scale: the smallest Young's modulus.
