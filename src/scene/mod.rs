@@ -29,7 +29,7 @@ pub use build::build;
 pub use grammar::Grammar;
 pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
 pub use motion::{Components, Course, DriveSpec, Motion, SupportSpec, TimeTable};
-pub use numerics::{Integration, Numerics, Projection, Sites};
+pub use numerics::{Integration, Numerics, Projection, Sites, Solution, Solver};
 pub use run::{RunReport, run, sizes, status_name, time_plan};
 pub use source::Source;
 pub use spec::{BodySpec, ContactSpec, MaterialSpec, OutputSpec, Scene, Side, TimeSpec, Units};
