@@ -14,7 +14,7 @@ use asperity::geometry::shapes::{Block, Cosine};
 use asperity::geometry::{BasisSpec, Edge, Profile, ShapeSpec, build};
 use asperity::laws::FrictionLaw;
 use asperity::laws::builtin::Coulomb;
-use asperity::math::SparseLu;
+use asperity::math::CondensedSolver;
 use asperity::model::{BodySpec, Builder, Control, Model, PairSpec, State, Table};
 use asperity::solve;
 
@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         &model,
         State::initial(&model),
         &control,
-        &mut SparseLu::default(),
+        &mut CondensedSolver::default(),
         &AtomicBool::new(false),
         |report| {
             let r = &report.record;

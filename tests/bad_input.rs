@@ -97,7 +97,7 @@ refuses! {
     key_of_a_law: "friction = 0.3" => "frcition = 0.3", at "law = ", key "contact.0.law.frcition",
         says ["did you mean `friction`?", "missing key `friction`"];
     unknown_law: "\"coulomb\"" => "\"colomb\"", at "law = ", key "contact.0.law.type",
-        says ["unknown type \"colomb\"", "`frictionless`", "did you mean `coulomb`?"];
+        says ["unknown type \"colomb\"", "`frictionless`", "did you mean `coulomb`?", "use that_crate as _;"];
     law_parameter_out_of_range: "friction = 0.3" => "friction = -0.3", at "law = ", key "contact.0.law.friction",
         says ["-0.3", "a number >= 0"];
     law_parameter_not_a_number: "friction = 0.3" => "friction = nan", at "law = ", key "contact.0.law.friction",
@@ -282,6 +282,23 @@ fn errors_are_collected() {
         .map(|key| said.find(key).unwrap_or_else(|| panic!("{key} missing in {said}")))
         .collect();
     assert!(places.is_sorted(), "{said}");
+}
+
+#[test]
+fn a_law_that_gives_no_number_ends_the_run_with_what_it_had() {
+    let law = "type = \"expression\", threshold = \"0.3*p*sqrt(0.2 - z)\", states = { z = { rate = \"4*p\" } }";
+    let broken = GOOD.replace("type = \"coulomb\", friction = 0.3", law);
+    let path = scene_file("no-number", &broken);
+    let out = path.with_extension("out");
+    let output = asperity(&["run", path.to_str().unwrap(), "--quiet", "--out", out.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert_says(
+        &said,
+        &["gives no number at the point (", "`sqrt(0.2 - z)` is NaN", "p = 0.", "z = 0.2", "steps before are kept"],
+    );
+    let rows = std::fs::read_to_string(out.join("history.csv")).expect("history.csv").lines().count();
+    assert_eq!(rows, 2, "header and the step before it");
 }
 
 #[test]

@@ -24,7 +24,7 @@ use asperity::contact::{ContactStatus, InterfaceForces, SiteRecord, Sites};
 use asperity::geometry::shapes::{Along, ArcProfile, Block};
 use asperity::geometry::{BasisSpec, Edge, Grading, Profile, ShapeSpec, build};
 use asperity::laws::builtin::Coulomb;
-use asperity::math::SparseLu;
+use asperity::math::CondensedSolver;
 use asperity::model::{BodySpec, Builder, Control, Model, PairSpec, State, Table};
 use asperity::solve::{self, Status};
 
@@ -103,7 +103,7 @@ fn run(per_a: f64, sites: Sites, hold: usize) -> Found {
     let model = model(per_a, sites);
     let steps = PRESS_STEPS + SHEAR_STEPS + hold;
     let control = solve::Control { end: steps as f64, steps, max_cuts: 0 };
-    let (quiet, mut solver) = (AtomicBool::new(false), SparseLu::default());
+    let (quiet, mut solver) = (AtomicBool::new(false), CondensedSolver::default());
     let (mut interfaces, mut force, mut iterations) = (vec![], [0.0; 2], vec![]);
     let outcome = solve::march(&model, State::initial(&model), &control, &mut solver, &quiet, |report| {
         interfaces.push(report.evaluation.interfaces[0].clone());

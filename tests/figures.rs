@@ -146,7 +146,8 @@ fn odd_histories_are_drawn_too() {
     ];
     for (name, records) in cases {
         let rows = interface(&records, 0.3);
-        let data = Data { records: &records, interface: &rows, local_friction: Some(0.3), variables: &[], units: &units };
+        let data =
+            Data { records: &records, interface: &rows, local_friction: Some(0.3), variables: &[], units: &units };
         for path in data.write_charts(&folder(name)).unwrap() {
             let text = fs::read(&path).unwrap();
             assert!(!String::from_utf8_lossy(&text).contains("NaN"), "{name}: {}", path.display());

@@ -20,7 +20,7 @@ use asperity::contact::{Integration, InterfaceForces, Sites};
 use asperity::geometry::shapes::{Along, ArcProfile, Block};
 use asperity::geometry::{BasisSpec, Edge, Grading, Profile, ShapeSpec, build, build_edge};
 use asperity::laws::builtin::Frictionless;
-use asperity::math::SparseLu;
+use asperity::math::CondensedSolver;
 use asperity::model::{BodySpec, Builder, Control, Model, PairSpec, State, Table};
 use asperity::solve::{self, Status};
 
@@ -130,7 +130,7 @@ impl Case {
     fn errors(&self) -> [f64; 3] {
         let model = self.model();
         let control = solve::Control { end: 1.0, steps: 1, max_cuts: 0 };
-        let (quiet, mut solver) = (AtomicBool::new(false), SparseLu::default());
+        let (quiet, mut solver) = (AtomicBool::new(false), CondensedSolver::default());
         let mut found = None;
         let outcome = solve::march(&model, State::initial(&model), &control, &mut solver, &quiet, |report| {
             found = Some(report.evaluation.interfaces[0].clone());

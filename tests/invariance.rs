@@ -6,7 +6,7 @@ use asperity::bulk::NeoHookean;
 use asperity::contact::{Projection, Sites, Tangent};
 use asperity::geometry::{Edge, Patch, Point};
 use asperity::laws::builtin::Frictionless;
-use asperity::math::SparseLu;
+use asperity::math::CondensedSolver;
 use asperity::model::{BodySpec, Builder, Evaluation, Model, PairSpec, State, evaluate, record};
 use asperity::solve::{Control, Status, march, predict};
 use proptest::prelude::*;
@@ -129,10 +129,11 @@ fn repetition_and_restart_are_bitwise_equal() {
     assert_eq!(state, first.states[3], "round trip");
     let control = Control { end: 1.0, steps: climb().steps, max_cuts: 8 };
     let mut states = vec![];
-    let outcome = march(&first.model, state, &control, &mut SparseLu::default(), &AtomicBool::new(false), |report| {
-        states.push(report.state.clone());
-        Ok::<(), Infallible>(())
-    });
+    let outcome =
+        march(&first.model, state, &control, &mut CondensedSolver::default(), &AtomicBool::new(false), |report| {
+            states.push(report.state.clone());
+            Ok::<(), Infallible>(())
+        });
     assert_eq!(outcome.expect("no error").status, Status::Done);
     assert_eq!(states, first.states[4..], "restart in the middle");
 }

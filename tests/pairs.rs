@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use asperity::math::SparseLu;
+use asperity::math::CondensedSolver;
 use asperity::model::{Record, State, interface_rows};
 use asperity::scene::{Scene, build};
 use asperity::solve::{Control, Status, march};
@@ -65,7 +65,7 @@ fn two_pairs_carry_the_same_uniform_pressure() {
     let mut rows = vec![];
     let control = Control { end: 1.0, steps: 2, max_cuts: 2 };
     let quiet = AtomicBool::new(false);
-    let outcome = march(&model, State::initial(&model), &control, &mut SparseLu::default(), &quiet, |report| {
+    let outcome = march(&model, State::initial(&model), &control, &mut CondensedSolver::default(), &quiet, |report| {
         rows = interface_rows(&model, report.evaluation, report.record.step);
         Ok::<(), Infallible>(())
     });
@@ -95,7 +95,7 @@ fn a_step_through_a_body_meets_it() {
     let mut records: Vec<Record> = vec![];
     let control = Control { end: 1.0, steps: 1, max_cuts: 3 };
     let quiet = AtomicBool::new(false);
-    let outcome = march(&model, State::initial(&model), &control, &mut SparseLu::default(), &quiet, |report| {
+    let outcome = march(&model, State::initial(&model), &control, &mut CondensedSolver::default(), &quiet, |report| {
         records.push(report.record);
         Ok::<(), Infallible>(())
     });

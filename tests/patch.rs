@@ -13,7 +13,7 @@ use asperity::contact::{ContactStatus, Integration, Sites, Tangent};
 use asperity::geometry::shapes::{AnnulusSector, Nurbs};
 use asperity::geometry::{BasisSpec, Edge, Patch, Point, ShapeSpec, build};
 use asperity::laws::builtin::Coulomb;
-use asperity::math::{LinearSolver, SparseLu};
+use asperity::math::{CondensedSolver, LinearSolver};
 use asperity::model::{BodySpec, Builder, Control, Evaluation, Model, PairSpec, State, Table, evaluate};
 use asperity::solve::solve_step;
 use nalgebra::Matrix2;
@@ -107,7 +107,7 @@ fn model(setup: &Setup) -> Model {
 /// round-off. (That takes more than one iteration where the edges end together: the tangent leaves out that the end of
 /// the integrated domain moves, which costs the quadratic rate when the mortar edge ends first.)
 fn solve(model: &Model, steps: usize) -> (State, Evaluation) {
-    let (mut state, mut solver) = (State::initial(model), SparseLu::default());
+    let (mut state, mut solver) = (State::initial(model), CondensedSolver::default());
     let mut last = None;
     for step in 1..=steps {
         let time = step as f64 / steps as f64;

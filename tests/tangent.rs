@@ -108,8 +108,11 @@ fn frictionless_tangent_is_symmetric() {
             };
             let model = pass(&setup);
             let (start, trial) = touching(&model, 0.45, 0.003);
-            let matrix =
-                evaluate(&model, &start, &trial, Tangent::Exact).expect("admissible").system.expect("tangent").assemble();
+            let matrix = evaluate(&model, &start, &trial, Tangent::Exact)
+                .expect("admissible")
+                .system
+                .expect("tangent")
+                .assemble();
             let largest = matrix.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             for j in 0..matrix.pattern.n {
                 for k in matrix.pattern.columns[j]..matrix.pattern.columns[j + 1] {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::contact::ContactDiscretization;
 use crate::model::{Body, Control, Model, Motion, Pair};
-use crate::scene::{Scene, build, time_plan};
+use crate::scene::{Scene, Solver, build, time_plan};
 use crate::verify::step_warnings;
 
 use super::SceneArguments;
@@ -125,8 +125,16 @@ fn left_out(scene: &Scene, model: &Model) -> Vec<String> {
 fn sizes(scene: &Scene, model: &Model) -> Vec<String> {
     let multipliers = model.unknowns() - model.equations.count;
     let element = if model.pairs.is_empty() { "mean element" } else { "shortest contact element" };
+    let solver = match scene.solution.solver {
+        Solver::Condensed => {
+            let dense = model.boundary.len() + multipliers;
+            format!("condensed, {} unknowns inside the bodies, {dense} in the dense block", model.unknowns() - dense)
+        }
+        Solver::SparseLu => "sparse LU of the whole".to_string(),
+    };
     vec![
         format!("{} unknowns: {} displacements, {multipliers} multipliers", model.unknowns(), model.equations.count),
+        format!("linear solver: {solver}"),
         format!("{} nominal steps of {:e}", scene.time.steps, scene.time.end / scene.time.steps as f64),
         format!("stress scale E = {:e}, {element} h = {:.3e}", model.modulus, model.element_size),
     ]

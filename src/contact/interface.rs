@@ -188,6 +188,9 @@ pub trait ContactDiscretization: Debug + Send + Sync {
     /// Longest time step that the law accepts at the closed sites found, infinite without opinion; `memory` is that of the
     /// start of the step of length `dt`.
     fn suggested_step(&self, memory: &[SiteMemory], found: &InterfaceForces, dt: f64) -> f64;
+    /// Why the law gave no number, with place and values, at the first site where that is so; arguments as in
+    /// [`Self::suggested_step`].
+    fn explain(&self, memory: &[SiteMemory], found: &InterfaceForces, dt: f64) -> Option<String>;
     /// Forces and, where asked for, the tangent.
     fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: Tangent) -> InterfaceForces;
 }

@@ -177,6 +177,24 @@ impl Mortar {
     }
 }
 
+impl Mortar {
+    /// What the law was asked at the closed sites, with the internal variables at the start of the step.
+    fn asked<'a>(
+        &'a self,
+        memory: &'a [SiteMemory],
+        found: &'a InterfaceForces,
+        dt: f64,
+    ) -> impl Iterator<Item = (InterfacePoint, &'a [f64])> {
+        let closed = found.sites.iter().enumerate().filter(|(_, site)| site.status != ContactStatus::Open);
+        closed.map(move |(index, site)| {
+            let memory = recall(memory, index, found.sites.len(), site.arc);
+            let old = memory.map_or(&self.variables, |m| &m.variables);
+            let position = [site.x.x, site.x.y];
+            (InterfacePoint { position, ..InterfacePoint::new(site.pressure, site.slip, dt) }, old.as_slice())
+        })
+    }
+}
+
 impl ContactDiscretization for Mortar {
     fn multipliers(&self) -> usize {
         self.multiplier.as_ref().map_or(self.nonmortar.points.len(), |basis| basis.len())
@@ -196,13 +214,16 @@ impl ContactDiscretization for Mortar {
 
     fn suggested_step(&self, memory: &[SiteMemory], found: &InterfaceForces, dt: f64) -> f64 {
         let Some(law) = &self.law else { return f64::INFINITY };
-        let closed = found.sites.iter().enumerate().filter(|(_, site)| site.status != ContactStatus::Open);
-        let wanted = closed.filter_map(|(index, site)| {
-            let old = recall(memory, index, found.sites.len(), site.arc).map_or(&self.variables, |m| &m.variables);
-            let position = [site.x.x, site.x.y];
-            law.suggested_step(&InterfacePoint { position, ..InterfacePoint::new(site.pressure, site.slip, dt) }, old)
-        });
+        let wanted = self.asked(memory, found, dt).filter_map(|(at, old)| law.suggested_step(&at, old));
         wanted.fold(f64::INFINITY, f64::min)
+    }
+
+    fn explain(&self, memory: &[SiteMemory], found: &InterfaceForces, dt: f64) -> Option<String> {
+        let law = self.law.as_ref()?;
+        self.asked(memory, found, dt).find_map(|(at, old)| {
+            let [x, y] = at.position;
+            law.explain(&at, old).map(|why| format!("at the point ({x:.6e}, {y:.6e}): {why}"))
+        })
     }
 
     fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: Tangent) -> InterfaceForces {

@@ -1,12 +1,18 @@
 //! Quadrature, sparse matrices and their factorisation.
 
+mod condensed;
+mod dense;
 mod quadrature;
 mod solver;
 mod sparse;
+mod sparse_lu;
 
+pub use condensed::{Condensed, CondensedSolver};
+pub use dense::{DenseLu, DenseMatrix};
 pub use quadrature::{GaussRule, gauss};
-pub use solver::{LinearSolver, SolveError, SparseLu};
+pub use solver::{Counters, LinearSolver, SolveError};
 pub use sparse::{Pattern, SparseMatrix, System, Triplets};
+pub use sparse_lu::SparseLu;
 
 /// Vector in the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;

@@ -1,13 +1,6 @@
-//! Sparse direct solution of the Newton system, checked after every solve.
+//! What a linear solver is, and the check that every solution passes.
 
-use std::sync::Arc;
-
-use faer::Par;
-use faer::prelude::Solve;
-use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-
-use super::{Pattern, SparseMatrix, System};
+use super::System;
 
 /// Why a linear system was not solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -18,97 +11,77 @@ pub enum SolveError {
     /// The solution does not satisfy the system.
     #[error("the linear solution is inaccurate: relative residual {0:.1e}")]
     Inaccurate(f64),
+    /// The stiffness inside a body is not positive definite.
+    #[error("the stiffness inside a body is not positive definite: it may have buckled")]
+    Indefinite,
+    /// Indices or memory do not suffice.
+    #[error("the matrix cannot be analysed ({0})")]
+    TooLarge(String),
+}
+
+/// What the solutions so far took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Factorisations of the bulk stiffness, alone or as part of the whole matrix.
+    pub factorisations: usize,
+    /// Solutions by the sparse LU of the whole because the stiffness inside a body was not positive definite.
+    pub indefinite: usize,
+    /// As before, because the interface acts on unknowns inside a body.
+    pub coupled: usize,
+    /// As before, because the condensed solution was inaccurate.
+    pub inaccurate: usize,
 }
 
 /// Solves Newton systems; keeps what can be reused from one to the next.
 pub trait LinearSolver: Send {
     /// Solution of `system x = rhs`, finite and with its residual checked.
+    ///
+    /// # Errors
+    /// A singular matrix or an inaccurate solution.
     fn solve(&mut self, system: &System, rhs: &[f64]) -> Result<Vec<f64>, SolveError>;
+
+    /// What it took so far.
+    fn counters(&self) -> Counters;
+
     /// Numeric factorisations so far.
-    fn factorisations(&self) -> usize;
+    fn factorisations(&self) -> usize {
+        self.counters().factorisations
+    }
 }
 
 /// Largest accepted residual relative to `|A| |x| + |b|` (row-wise backward error).
 const BACKWARD_ERROR: f64 = 1e-9;
 
-/// faer's sparse LU (COLAMD order). The symbolic analysis is kept while the pattern stays the same.
-#[derive(Default)]
-pub struct SparseLu {
-    symbolic: Option<(Arc<Pattern>, SymbolicLu<usize>)>,
-    factorisations: usize,
-}
-
-impl SparseLu {
-    fn symbolic(&mut self, matrix: &SparseMatrix) -> Result<SymbolicLu<usize>, SolveError> {
-        if let Some((pattern, symbolic)) = &self.symbolic
-            && **pattern == *matrix.pattern
-        {
-            return Ok(symbolic.clone());
-        }
-        let symbolic =
-            SymbolicLu::try_new(view(&matrix.pattern)).map_err(|e| SolveError::Singular(format!("{e:?}")))?;
-        self.symbolic = Some((matrix.pattern.clone(), symbolic.clone()));
-        Ok(symbolic)
+/// Solves with `apply`, which replaces a right-hand side by a solution; checks that the answer is finite and its backward
+/// error small, and refines once where it is not. (A factorisation of a singular matrix can come back without an error but
+/// full of infinities.)
+pub(super) fn checked(system: &System, rhs: &[f64], mut apply: impl FnMut(&mut [f64])) -> Result<Vec<f64>, SolveError> {
+    let mut x = rhs.to_vec();
+    apply(&mut x);
+    let mut residual = vec![0.0; rhs.len()];
+    let error = backward_error(system, &x, rhs, &mut residual)?;
+    if error <= BACKWARD_ERROR {
+        return Ok(x);
     }
+    let mut correction = residual.clone();
+    apply(&mut correction);
+    x.iter_mut().zip(&correction).for_each(|(x, c)| *x += c);
+    let error = backward_error(system, &x, rhs, &mut residual)?;
+    if error <= BACKWARD_ERROR { Ok(x) } else { Err(SolveError::Inaccurate(error)) }
 }
 
-impl LinearSolver for SparseLu {
-    fn solve(&mut self, system: &System, rhs: &[f64]) -> Result<Vec<f64>, SolveError> {
-        faer::set_global_parallelism(Par::Seq);
-        let matrix = system.assemble();
-        let symbolic = self.symbolic(&matrix)?;
-        let faer_matrix = SparseColMatRef::new(view(&matrix.pattern), &matrix.values);
-        let lu =
-            Lu::try_new_with_symbolic(symbolic, faer_matrix).map_err(|e| SolveError::Singular(format!("{e:?}")))?;
-        self.factorisations += 1;
-        let apply = |b: &[f64]| -> Vec<f64> {
-            let column = faer::ColRef::from_slice(b);
-            lu.solve(column).iter().copied().collect()
-        };
-        checked(&matrix, rhs, apply)
+/// `max |r| / max(|A| |x| + |b|)` over all rows, with `r = b - A x` left in `residual`.
+fn backward_error(system: &System, x: &[f64], rhs: &[f64], residual: &mut [f64]) -> Result<f64, SolveError> {
+    if x.iter().any(|v| !v.is_finite()) {
+        return Err(SolveError::Singular("the solution is not finite".into()));
     }
-
-    fn factorisations(&self) -> usize {
-        self.factorisations
-    }
-}
-
-fn view(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {
-    SymbolicSparseColMatRef::new_checked(pattern.n, pattern.n, &pattern.columns, None, &pattern.rows)
-}
-
-/// Solves, checks that the answer is finite and its backward error small, and refines once where it is not.
-/// (A factorisation of a singular matrix can come back without an error but full of infinities.)
-fn checked(matrix: &SparseMatrix, rhs: &[f64], apply: impl Fn(&[f64]) -> Vec<f64>) -> Result<Vec<f64>, SolveError> {
-    let mut x = apply(rhs);
-    for attempt in 0..2 {
-        if x.iter().any(|v| !v.is_finite()) {
-            return Err(SolveError::Singular("the solution is not finite".into()));
-        }
-        let ax = matrix.times(&x);
-        let residual: Vec<f64> = rhs.iter().zip(&ax).map(|(b, a)| b - a).collect();
-        let error = backward_error(matrix, &x, rhs, &residual);
-        if error <= BACKWARD_ERROR {
-            return Ok(x);
-        }
-        if attempt == 1 {
-            return Err(SolveError::Inaccurate(error));
-        }
-        let correction = apply(&residual);
-        x.iter_mut().zip(&correction).for_each(|(x, c)| *x += c);
-    }
-    unreachable!("the second attempt returns")
-}
-
-/// `max |r| / max(|A| |x| + |b|)`, norms over all rows.
-fn backward_error(matrix: &SparseMatrix, x: &[f64], rhs: &[f64], residual: &[f64]) -> f64 {
+    residual.copy_from_slice(rhs);
     let mut scale: Vec<f64> = rhs.iter().map(|b| b.abs()).collect();
-    let pattern = &matrix.pattern;
-    for (range, xj) in pattern.columns.windows(2).zip(x) {
-        for k in range[0]..range[1] {
-            scale[pattern.rows[k]] += (matrix.values[k] * xj).abs();
-        }
-    }
-    let largest = scale.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(*v));
-    residual.iter().fold(0.0_f64, |m, r| m.max(r.abs())) / largest
+    system.for_each(|i, j, v| {
+        let product = v * x[j];
+        residual[i] -= product;
+        scale[i] += product.abs();
+    });
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    Ok(largest(residual) / largest(&scale).max(f64::MIN_POSITIVE))
 }

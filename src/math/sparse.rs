@@ -79,9 +79,23 @@ pub struct System {
     pub bulk: SparseMatrix,
     /// Interface blocks and multiplier rows.
     pub interface: Triplets,
+    /// Displacement unknowns that the interface may act on, the same throughout an analysis: a solver may treat the others in
+    /// advance. (Springs on the diagonal may stand anywhere.)
+    pub boundary: Arc<[usize]>,
 }
 
 impl System {
+    /// Every entry `(row, column, value)`; those of one place add up.
+    pub fn for_each(&self, mut visit: impl FnMut(usize, usize, f64)) {
+        let bulk = &self.bulk.pattern;
+        for (j, range) in bulk.columns.windows(2).enumerate() {
+            for k in range[0]..range[1] {
+                visit(bulk.rows[k], j, self.bulk.values[k]);
+            }
+        }
+        self.interface.iter().for_each(|&(i, j, v)| visit(i, j, v));
+    }
+
     /// The sum as one sparse matrix.
     pub fn assemble(&self) -> SparseMatrix {
         let mut extra: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.n];

@@ -80,6 +80,7 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -
         n: model.unknowns(),
         bulk: SparseMatrix { pattern: model.equations.pattern.clone(), values },
         interface: interface_entries(model, &interfaces),
+        boundary: model.boundary.clone(),
     });
     Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale })
 }
@@ -88,6 +89,12 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -
 pub fn suggested_step(model: &Model, start: &State, found: &Evaluation, dt: f64) -> f64 {
     let pairs = model.pairs.iter().zip(&start.pairs).zip(&found.interfaces);
     pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt)).fold(f64::INFINITY, f64::min)
+}
+
+/// Why a law gave no number in a trial evaluation of a step of length `dt`, with place and values; `None` where all did.
+pub fn explain(model: &Model, start: &State, found: &Evaluation, dt: f64) -> Option<String> {
+    let mut pairs = model.pairs.iter().zip(&start.pairs).zip(&found.interfaces);
+    pairs.find_map(|((pair, old), found)| pair.contact.explain(&old.sites, found, dt))
 }
 
 fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State, tangent: Tangent) -> InterfaceForces {

@@ -1,5 +1,6 @@
 //! Building a model from bodies, motions and contact pairs.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use asperity_laws::FrictionLaw;
@@ -176,6 +177,7 @@ impl Builder {
             element_size: if element_size.is_finite() { element_size } else { mean_element(&self.bodies) },
             bodies: self.bodies,
             motions: self.motions,
+            boundary: boundary(&pairs, &equations),
             pairs,
             equations,
         })
@@ -203,6 +205,13 @@ impl Builder {
         let size = modulus / crate::contact::ContactDiscretization::augmentation(&contact);
         Ok((Pair { nonmortar, mortar, contact: Arc::new(contact), offset }, size))
     }
+}
+
+/// Displacement unknowns of the contact edges, each once.
+fn boundary(pairs: &[Pair], equations: &Equations) -> Arc<[usize]> {
+    let nodes = pairs.iter().flat_map(|pair| pair.nonmortar.nodes.iter().chain(&pair.mortar.nodes));
+    let unknowns: BTreeSet<usize> = nodes.flat_map(|&i| (0..2).filter_map(move |c| equations.unknown(i, c))).collect();
+    unknowns.into_iter().collect()
 }
 
 /// Reference position of a control point, counted over all bodies.

@@ -9,7 +9,7 @@ mod record;
 mod state;
 
 pub use crate::contact::{ContactStatus, Tangent};
-pub use assembly::{Evaluation, evaluate, suggested_step};
+pub use assembly::{Evaluation, evaluate, explain, suggested_step};
 pub use body::{Body, BodyKind};
 pub use build::{BodySpec, Builder, ModelError, PairSpec};
 pub use equations::{Dof, Equations};
@@ -61,6 +61,8 @@ pub struct Model {
     pub pairs: Vec<Pair>,
     /// Numbering of the displacement unknowns and pattern of the bulk stiffness.
     pub equations: Equations,
+    /// Displacement unknowns of the contact edges, in increasing order.
+    pub boundary: Arc<[usize]>,
     /// The body whose resistance and support are reported, see [`Record`].
     pub driven: usize,
     /// Stress scale: the smallest Young's modulus.

@@ -112,9 +112,10 @@ impl Issue {
         Self { allowed: Some(allowed.into()), ..self }
     }
 
-    /// Adds a likely remedy.
+    /// Adds a likely remedy, after those that are there.
     pub fn help(self, help: impl Into<String>) -> Self {
-        Self { help: Some(help.into()), ..self }
+        let before = self.help.as_ref().map_or(String::new(), |help| format!("{help} "));
+        Self { help: Some(before + &help.into()), ..self }
     }
 
     /// Adds the names that are known here, and the nearest of them to what was written.

@@ -31,7 +31,7 @@ pub use build::build;
 pub use grammar::Grammar;
 pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
 pub use motion::{Components, Course, DriveSpec, Motion, SupportSpec, TimeTable};
-pub use numerics::{Integration, Numerics, Projection, Sites};
+pub use numerics::{Integration, Numerics, Projection, Sites, Solution, Solver};
 pub use probe::Probe;
 pub use programme::Programme;
 pub use run::{RunReport, run, sizes, status_name, time_plan};

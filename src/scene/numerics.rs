@@ -1,9 +1,10 @@
-//! Numerical choices of one contact: measured by the trade study, defaulted for everybody else.
+//! Numerical choices, of one contact and of the solution: measured by the trade study, defaulted for everybody else.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Basis;
+use crate::math::{CondensedSolver, LinearSolver, SparseLu};
 
 /// How a contact is discretized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -79,6 +80,35 @@ pub enum Integration {
     Segment,
     /// `segment` on mortar curves of degree 2 or more with corners (quadratic Lagrange), else `element`.
     Auto,
+}
+
+/// How the equations of a step are solved.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Solution {
+    /// Solver of the linear systems.
+    pub solver: Solver,
+}
+
+/// Solver of the linear systems. The solution does not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solver {
+    /// The inside of the bodies by sparse Cholesky, contact unknowns and multipliers by dense LU: several times faster.
+    #[default]
+    Condensed,
+    /// Sparse LU of the whole matrix: the reference.
+    SparseLu,
+}
+
+impl Solver {
+    /// A solver of this kind.
+    pub fn create(self) -> Box<dyn LinearSolver> {
+        match self {
+            Self::Condensed => Box::new(CondensedSolver::default()),
+            Self::SparseLu => Box::new(SparseLu::default()),
+        }
+    }
 }
 
 /// Degrees of multipliers on the elements of `edge` that do not let the pressure oscillate, highest first.

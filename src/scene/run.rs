@@ -6,7 +6,7 @@ use std::time::Instant;
 use serde_json::{Value, json};
 
 use crate::contact::ContactDiscretization;
-use crate::math::SparseLu;
+use crate::math::Counters;
 use crate::model::{Model, Pair, Record, State};
 use crate::output::{OutputError, RunFolder};
 use crate::solve::{Control, Outcome, Status, march};
@@ -50,7 +50,8 @@ pub fn run(
     recorder.start(&state)?;
     let mut audit = Audit::new(Expectations::of(model));
     let mut reached = 0;
-    let outcome = march(model, state, &plan, &mut SparseLu::default(), interrupt, |report| {
+    let mut solver = scene.solution.solver.create();
+    let outcome = march(model, state, &plan, solver.as_mut(), interrupt, |report| {
         recorder.step(&report)?;
         audit.take(&report.record);
         reached = report.record.step;
@@ -60,12 +61,12 @@ pub fn run(
     recorder.finish(scene)?;
     let report = RunReport { outcome, findings: audit.findings() };
     warnings.extend(report.findings.iter().filter(|finding| finding.warns()).map(Finding::to_string));
-    let result = conclusion(&report, reached, clock.elapsed().as_secs_f64());
+    let result = conclusion(&report, &solver.counters(), reached, clock.elapsed().as_secs_f64());
     folder.write_run(&summary(scene, model, &warnings, result))?;
     Ok(report)
 }
 
-fn conclusion(report: &RunReport, reached: usize, wall_s: f64) -> Value {
+fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64) -> Value {
     let outcome = &report.outcome;
     json!({
         "status": status_name(&outcome.status),
@@ -75,6 +76,9 @@ fn conclusion(report: &RunReport, reached: usize, wall_s: f64) -> Value {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": outcome.factorisations,
             "lagged_steps": outcome.lagged,
+        },
+        "sparse_lu_instead": {
+            "indefinite": solver.indefinite, "coupled": solver.coupled, "inaccurate": solver.inaccurate,
         },
         "audit": {
             "passed": !report.findings.iter().any(Finding::failed),
@@ -117,6 +121,7 @@ pub fn sizes(model: &Model) -> Value {
         "control_points": model.nodes(),
         "unknowns": model.unknowns(),
         "displacement_unknowns": model.equations.count,
+        "contact_unknowns": model.boundary.len(),
         "stress_scale": model.modulus,
         "element_size": model.element_size,
         "pairs": model.pairs.iter().map(pair).collect::<Vec<_>>(),

@@ -7,6 +7,10 @@ use super::grammar::Grammar;
 use super::issue::{Issue, KeyPath, listed};
 use super::tree::{Item, Node};
 
+/// Added where a law is not known.
+const LINKED_LAWS: &str =
+    "A law of another crate is linked by `use that_crate as _;` in its program, see examples/own_law";
+
 /// The schema of a declared key.
 pub(super) fn property<'a>(schema: &'a Schema, key: &str) -> Option<&'a Schema> {
     schema.get("properties")?.get(key)
@@ -96,7 +100,11 @@ pub(super) fn pick_tagged<'a>(
     match node.get(tag).map(|value| &value.item) {
         None => Err(Issue::value(here, format!("missing key `{tag}`")).allowed(listed(&names))),
         Some(Item::Leaf(Value::String(found))) => {
-            let unknown = || Issue::value(here, format!("unknown {tag} \"{found}\"")).known(found, &names);
+            let unknown = || {
+                let linked = here.segments().iter().any(|key| key == "law").then_some(LINKED_LAWS);
+                let issue = Issue::value(here, format!("unknown {tag} \"{found}\"")).known(found, &names);
+                linked.into_iter().fold(issue, Issue::help)
+            };
             branches.iter().zip(&names).find(|(_, name)| *name == found).map(|(b, _)| *b).ok_or_else(unknown)
         }
         Some(_) => Err(Issue::value(here, format!("`{tag}` is not a string")).allowed(listed(&names))),

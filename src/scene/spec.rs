@@ -9,7 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use super::motion::{DriveSpec, SupportSpec};
-use super::numerics::Numerics;
+use super::numerics::{Numerics, Solution};
 use crate::geometry::{BasisSpec, Edge, Grading, ShapeSpec};
 
 /// A whole analysis: bodies, how they are held and moved, their contacts, and how time passes.
@@ -42,6 +42,9 @@ pub struct Scene {
     pub contact: Vec<ContactSpec>,
     /// Duration and nominal steps.
     pub time: TimeSpec,
+    /// How the equations of a step are solved.
+    #[serde(default)]
+    pub solution: Solution,
     /// What is written, and how often.
     #[serde(default)]
     pub output: OutputSpec,

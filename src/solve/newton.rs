@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::math::{LinearSolver, SolveError};
-use crate::model::{Evaluation, Model, State, Tangent, evaluate};
+use crate::model::{Evaluation, Model, State, Tangent, evaluate, explain};
 
 use super::floating::{hint, support_floating};
 use super::predictor::{guesses, trend};
@@ -40,8 +40,13 @@ pub enum StepFailure {
     /// The linear system could not be solved.
     #[error("{0}")]
     Linear(#[from] SolveError),
+    /// A friction law gave no number.
+    #[error("a friction law gives no number {0}")]
+    Law(String),
     /// Converged, but too long for the friction law.
-    #[error("the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps")]
+    #[error(
+        "the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
+    )]
     Vetoed {
         /// Step that converged.
         taken: f64,
@@ -144,6 +149,11 @@ impl Step<'_> {
             self.weakens |= weakening::weakens(&evaluation);
             if self.balanced(&evaluation) {
                 return Ok(self.converged(trial, evaluation, residuals));
+            }
+            if size.is_nan()
+                && let Some(why) = explain(model, self.start, &evaluation, trial.time - self.start.time)
+            {
+                return Err(StepFailure::Law(why));
             }
             if iteration == way.most() || size.is_nan() {
                 let residual = size / evaluation.force_scale;

@@ -12,7 +12,7 @@ use asperity::geometry::shapes::{Block, Cosine};
 use asperity::geometry::{BasisSpec, Edge, Profile, ShapeSpec, build};
 use asperity::laws::FrictionLaw;
 use asperity::laws::builtin::Coulomb;
-use asperity::math::SparseLu;
+use asperity::math::CondensedSolver;
 use asperity::model::{
     BodySpec, Builder, Control, InterfaceRow, Model, PairSpec, Record, State, Table, interface_rows,
 };
@@ -132,12 +132,13 @@ pub fn run(model: Model, steps: usize) -> Run {
     let (mut records, mut states, mut rows) = (vec![], vec![], vec![]);
     let control = solve::Control { end: 1.0, steps, max_cuts: 8 };
     let quiet = AtomicBool::new(false);
-    let outcome = solve::march(&model, State::initial(&model), &control, &mut SparseLu::default(), &quiet, |report| {
-        rows.push(interface_rows(&model, report.evaluation, report.record.step));
-        records.push(report.record);
-        states.push(report.state.clone());
-        Ok::<(), Infallible>(())
-    });
+    let outcome =
+        solve::march(&model, State::initial(&model), &control, &mut CondensedSolver::default(), &quiet, |report| {
+            rows.push(interface_rows(&model, report.evaluation, report.record.step));
+            records.push(report.record);
+            states.push(report.state.clone());
+            Ok::<(), Infallible>(())
+        });
     let outcome = outcome.unwrap_or_else(|e| match e {});
     Run { model, records, states, rows, outcome }
 }

@@ -164,11 +164,11 @@ mod tests {
         initial_age: None,
     };
 
-    /// The kit resolves a slope at rest by slips down to 1e-38; that of `ROCK` itself, `exp(60) ..`, is steeper after long holds.
     #[test]
     fn conforms() {
         for evolution in [Evolution::Aging, Evolution::Slip, Evolution::Prz] {
             for law in [
+                RateAndState { evolution, ..ROCK },
                 RateAndState { evolution, friction: 0.1, ..ROCK },
                 RateAndState { evolution, friction: 0.0, evolution_effect: 0.0, initial_age: Some(1e6), ..ROCK },
                 RateAndState { evolution, direct_effect: 1.0, distance: 1e3, speed: 1e3, ..ROCK },
