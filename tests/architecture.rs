@@ -79,7 +79,8 @@ fn imports(text: &str) -> Vec<String> {
 #[test]
 fn rooms_import_only_rooms_to_their_left() {
     let rooms = rooms();
-    let expected = ["math", "geometry", "bulk", "contact", "model", "solve", "verify", "output", "scene", "study"];
+    let expected =
+        ["math", "geometry", "bulk", "contact", "model", "solve", "verify", "output", "scene", "study", "cli"];
     let mut order = expected.iter();
     assert!(rooms.len() > 5 && rooms.iter().all(|room| order.any(|e| e == room)), "{rooms:?} against {expected:?}");
     for (path, text) in sources("src") {

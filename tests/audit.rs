@@ -78,7 +78,7 @@ fn finds(name: &str, step: usize, failure: bool, plant: impl Fn(&mut Record)) {
 #[test]
 fn good_records_pass_and_every_audit_judges_some() {
     let found = findings(&good(), EXPECTED);
-    assert_eq!(found.len(), 9);
+    assert_eq!(found.len(), 10);
     for finding in found {
         assert!(finding.passed && finding.judged > 20, "{finding:?}");
     }
@@ -203,7 +203,7 @@ fn run_json_holds_audits_and_warnings() {
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["result"]["audit"]["passed"], true);
     let checks = json["result"]["audit"]["checks"].as_array().unwrap();
-    assert_eq!(checks.len(), 9);
+    assert_eq!(checks.len(), 10);
     let judged = |name: &str| checks.iter().find(|c| c["name"] == name).unwrap()["judged"].as_u64().unwrap();
     assert_eq!((judged("interface_force"), judged("energy_created")), (4, 4));
     assert!(judged("friction_identity") > 0, "the dragged block slips: {checks:?}");

@@ -140,3 +140,36 @@ fn regularised_laws_tend_to_coulomb_at_their_rates() {
         assert!(errors[2] < 1e-2, "{table}: {errors:?}");
     }
 }
+
+/// Coulomb's law that wants short steps while it rubs.
+#[derive(Debug, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Impatient {
+    step: f64,
+}
+
+#[typetag::serde(name = "test-impatient")]
+impl FrictionLaw for Impatient {
+    fn response(&self, at: &laws::InterfacePoint, _: &[f64], _: &mut [laws::Dual]) -> laws::Response {
+        laws::Response::Threshold(at.pressure * 0.3)
+    }
+
+    fn suggested_step(&self, _: &laws::InterfacePoint, _: &[f64]) -> Option<f64> {
+        Some(self.step)
+    }
+}
+
+#[test]
+fn a_law_may_ask_for_shorter_steps() {
+    let nominal = 1.0 / climb().steps as f64;
+    let under = |step: f64| run(pass(&Pass { law: Some(Arc::new(Impatient { step })), ..climb() }), climb().steps);
+    let free = under(nominal);
+    assert_eq!((free.outcome.cuts, free.outcome.steps), (0, climb().steps), "a step as long as asked for is accepted");
+    let found = under(0.26 * nominal);
+    let touching = found.records.iter().filter(|r| r.contact_length > 0.0).count();
+    assert_eq!(found.outcome.status, Status::Done);
+    assert_eq!(found.outcome.cuts, 1, "one step is thrown away, the next ones are short at once");
+    assert!(found.outcome.steps >= 3 * touching + (climb().steps - touching), "{} steps", found.outcome.steps);
+    let Status::NotConverged { reason, .. } = under(1e-9 * nominal).outcome.status else { panic!("too short") };
+    assert!(reason.contains("the friction law asks for steps of 1.250e-10"), "{reason}");
+}
