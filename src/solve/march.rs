@@ -49,7 +49,16 @@ pub fn march<E>(
     let nominal = control.end / control.steps as f64;
     let first = (start.time / nominal).round() as usize;
     let smallest = nominal * 0.5_f64.powi(control.max_cuts as i32);
-    let mut march = March { model, solver, interrupt, nominal, smallest, dt: nominal, outcome: Outcome::at(start) };
+    let mut march = March {
+        model,
+        solver,
+        interrupt,
+        nominal,
+        smallest,
+        dt: nominal,
+        law: f64::INFINITY,
+        outcome: Outcome::at(start),
+    };
     for step in first + 1..=control.steps {
         let clock = Instant::now();
         let target = if step == control.steps { control.end } else { step as f64 * nominal };
@@ -100,6 +109,8 @@ struct March<'a> {
     smallest: f64,
     /// Step to be tried next; remembered from one nominal step to the next.
     dt: f64,
+    /// Longest step that the law accepted last.
+    law: f64,
     outcome: Outcome,
 }
 
@@ -121,7 +132,9 @@ impl March<'_> {
             }
             // A remainder below half a sub-step joins the last one.
             let left = target - time;
-            let wanted = if left <= 1.5 * self.dt { target } else { time + self.dt };
+            let wanted = if left <= 1.5 * self.dt { left } else { self.dt };
+            let pieces = (wanted / self.law * VETO).ceil().max(1.0);
+            let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
             let next = within_stride(self.model, time, wanted);
             match self.step(next) {
                 Ok(done) => {
@@ -133,11 +146,11 @@ impl March<'_> {
                 Err(StepFailure::Interrupted) => return Err(Status::Interrupted { time }),
                 Err(failure) => {
                     self.outcome.cuts += 1;
-                    self.dt = match failure {
-                        StepFailure::Vetoed { step, .. } => step,
-                        _ => 0.5 * (next - time),
-                    };
-                    if self.dt < self.smallest {
+                    match failure {
+                        StepFailure::Vetoed { step, .. } => self.law = step,
+                        _ => self.dt = 0.5 * (next - time),
+                    }
+                    if self.dt.min(self.law) < self.smallest {
                         return Err(Status::NotConverged { time, reason: failure.to_string() });
                     }
                 }
@@ -156,7 +169,7 @@ impl March<'_> {
         }
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
-        self.dt = (2.0 * self.dt).min(self.nominal).min(law);
+        (self.dt, self.law) = ((2.0 * self.dt).min(self.nominal), law);
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
     }
