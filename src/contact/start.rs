@@ -35,7 +35,8 @@ impl StartPartners {
             return found.partners.clone();
         }
         let partners = find();
-        *last = Some(Found { nonmortar: at.nonmortar.to_vec(), mortar: at.mortar.to_vec(), partners: partners.clone() });
+        *last =
+            Some(Found { nonmortar: at.nonmortar.to_vec(), mortar: at.mortar.to_vec(), partners: partners.clone() });
         partners
     }
 }
