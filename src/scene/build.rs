@@ -12,7 +12,7 @@ use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
 use crate::contact;
 use crate::geometry::{self, BSpline, Basis, Edge, GeometryError, Point};
-use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Table, Tangent, evaluate};
+use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Tangent, Table, evaluate};
 
 /// Builds the model of a scene. Files that the scene names (profiles) are looked for in `base_dir`.
 ///

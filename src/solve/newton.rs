@@ -41,9 +41,7 @@ pub enum StepFailure {
     #[error("{0}")]
     Linear(#[from] SolveError),
     /// Converged, but too long for the friction law.
-    #[error(
-        "the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
-    )]
+    #[error("the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps")]
     Vetoed {
         /// Step that converged.
         taken: f64,

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::Record;
 
-use super::criteria::*;
 use super::expectations::Expectations;
+use super::criteria::*;
 use super::finding::{Finding, Worst};
 
 /// Audit of a run, fed with one record after the other.

@@ -31,11 +31,7 @@ pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 24] = [
     ("fully_slipping", Quantity::Number, "true if every point in contact slips"),
     ("force_imbalance", Quantity::Number, "resultant of the interface on both bodies, relative"),
     ("moment_imbalance", Quantity::Number, "moment of the interface on both bodies, relative"),
-    (
-        "weakening",
-        Quantity::Number,
-        "share of the bodies' tangential stiffness taken by friction that falls with the slip rate",
-    ),
+    ("weakening", Quantity::Number, "share of the bodies' tangential stiffness taken by friction that falls with the slip rate"),
 ];
 
 /// Appends to `history.csv`; a row is on disk when `append` returns.
