@@ -3,6 +3,7 @@
 use nalgebra::Matrix2;
 
 use super::Material;
+use super::stiffness::{Stiffness, place};
 use crate::geometry::{Patch, Point};
 use crate::math::gauss;
 
@@ -25,7 +26,7 @@ pub struct BulkForces<'a> {
     pub nodes: &'a [usize],
     /// Internal force at each node.
     pub forces: &'a [Point],
-    /// Row-major stiffness, `2 nodes` square, unknowns ordered node by node; empty if not asked for.
+    /// One half of the symmetric stiffness, see [`Elements::place`]; empty if not asked for.
     pub stiffness: &'a [f64],
 }
 
@@ -88,6 +89,12 @@ impl Elements {
         self.weights.iter().sum()
     }
 
+    /// Where entry `(i, j)` of an element stiffness stands in [`BulkForces::stiffness`], unknowns ordered node by node; the
+    /// same as that of `(j, i)`.
+    pub fn place(i: usize, j: usize) -> usize {
+        place(i, j)
+    }
+
     /// Integrates all elements for the displacement `u` of the control points and hands each to `take`.
     /// Returns the strain energy, or `None` where `det F <= 0` somewhere.
     pub fn integrate(
@@ -99,25 +106,30 @@ impl Elements {
     ) -> Option<f64> {
         let n = self.nodes_per_element;
         let mut forces = vec![Point::zeros(); n];
-        let mut k = vec![0.0; if stiffness { 4 * n * n } else { 0 }];
+        let mut sums = stiffness.then(|| Stiffness::new(n, self.points_per_element));
         let mut energy = 0.0;
         for e in 0..self.count() {
             let nodes = self.nodes(e);
             forces.fill(Point::zeros());
-            k.fill(0.0);
-            for q in e * self.points_per_element..(e + 1) * self.points_per_element {
-                let gradients = &self.gradients[q * n..(q + 1) * n];
-                let response = material.response(&deformation_gradient(nodes, gradients, u))?;
-                let w = self.weights[q];
-                energy += w * response.energy;
+            let points = e * self.points_per_element..(e + 1) * self.points_per_element;
+            let of_points = &self.gradients[points.start * n..points.end * n];
+            for ((q, gradients), &w) in of_points.chunks_exact(n).enumerate().zip(&self.weights[points]) {
+                let f = deformation_gradient(nodes, gradients, u);
+                let (density, stress) = match &mut sums {
+                    None => material.stress(&f)?,
+                    Some(sums) => {
+                        let response = material.response(&f)?;
+                        sums.set(q, &response.tangent, w);
+                        (response.energy, response.stress)
+                    }
+                };
+                energy += w * density;
                 for (force, g) in forces.iter_mut().zip(gradients) {
-                    *force += response.stress * Point::new(g[0], g[1]) * w;
-                }
-                if stiffness {
-                    add_stiffness(&mut k, gradients, &response.tangent, w);
+                    *force += stress * Point::new(g[0], g[1]) * w;
                 }
             }
-            take(e, BulkForces { nodes, forces: &forces, stiffness: &k });
+            let stiffness = sums.as_mut().map_or(&[][..], |sums| sums.sum(of_points));
+            take(e, BulkForces { nodes, forces: &forces, stiffness });
         }
         Some(energy)
     }
@@ -134,23 +146,4 @@ fn deformation_gradient(nodes: &[usize], gradients: &[[f64; 2]], u: &[Point]) ->
         f[3] += d.y * g[1];
     }
     Matrix2::new(f[0], f[1], f[2], f[3])
-}
-
-/// Adds `w dN_a,J A_iJkL dN_b,L`.
-fn add_stiffness(k: &mut [f64], gradients: &[[f64; 2]], a: &[[f64; 4]; 4], w: f64) {
-    let n = 2 * gradients.len();
-    for (node_a, ga) in gradients.iter().enumerate() {
-        for i in 0..2 {
-            // c_kL = w dN_a,J A_iJkL
-            let mut c = [0.0; 4];
-            for (kl, value) in c.iter_mut().enumerate() {
-                *value = w * (ga[0] * a[2 * i][kl] + ga[1] * a[2 * i + 1][kl]);
-            }
-            let row = &mut k[(2 * node_a + i) * n..(2 * node_a + i + 1) * n];
-            for (pair, gb) in row.chunks_exact_mut(2).zip(gradients) {
-                pair[0] += c[0] * gb[0] + c[1] * gb[1];
-                pair[1] += c[2] * gb[0] + c[3] * gb[1];
-            }
-        }
-    }
 }

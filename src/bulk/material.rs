@@ -20,6 +20,12 @@ pub trait Material: Debug + Send + Sync {
     /// Stress, tangent and energy for the in-plane deformation gradient `f`; `None` where the material does not exist
     /// (`det F <= 0`).
     fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse>;
+    /// Energy and stress of [`Self::response`] without the tangent.
+    fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)>;
+    /// True when the tangent is the same for every `f`.
+    fn linear(&self) -> bool {
+        false
+    }
     /// Young's modulus at small strain: the stress scale of every numerical parameter.
     fn youngs_modulus(&self) -> f64;
     /// Poisson's ratio at small strain.
@@ -35,7 +41,7 @@ pub trait Material: Debug + Send + Sync {
 
     /// In-plane Cauchy stress, `P F^T / det F` at finite strain.
     fn cauchy(&self, f: &Matrix2<f64>) -> Option<Matrix2<f64>> {
-        let stress = self.response(f)?.stress;
+        let (_, stress) = self.stress(f)?;
         Some(if self.small_strain() { stress } else { stress * f.transpose() / f.determinant() })
     }
 }
@@ -63,17 +69,31 @@ pub struct NeoHookean {
     pub poissons_ratio: f64,
 }
 
+impl NeoHookean {
+    /// `ln J` and `F^-T`.
+    fn volume(f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
+        let j = f.determinant();
+        (j > 0.0).then(|| (j.ln(), Matrix2::new(f[(1, 1)], -f[(1, 0)], -f[(0, 1)], f[(0, 0)]) / j))
+    }
+
+    /// Energy and stress.
+    fn elastic(&self, f: &Matrix2<f64>, (log_j, t): &(f64, Matrix2<f64>)) -> (f64, Matrix2<f64>) {
+        let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
+        let energy = 0.5 * mu * (f.norm_squared() - 2.0 - 2.0 * log_j) + 0.5 * lambda * log_j * log_j;
+        (energy, (f - t) * mu + t * (lambda * log_j))
+    }
+}
+
 impl Material for NeoHookean {
+    fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
+        Some(self.elastic(f, &Self::volume(f)?))
+    }
+
     fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse> {
         let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
-        let j = f.determinant();
-        if j.is_nan() || j <= 0.0 {
-            return None;
-        }
-        let log_j = j.ln();
-        let t = Matrix2::new(f[(1, 1)], -f[(1, 0)], -f[(0, 1)], f[(0, 0)]) / j;
-        let stress = (f - t) * mu + t * (lambda * log_j);
-        let energy = 0.5 * mu * (f.norm_squared() - 2.0 - 2.0 * log_j) + 0.5 * lambda * log_j * log_j;
+        let volume = Self::volume(f)?;
+        let (energy, stress) = self.elastic(f, &volume);
+        let (log_j, t) = volume;
         let geometric = mu - lambda * log_j;
         let mut tangent = [[0.0; 4]; 4];
         for (row, line) in tangent.iter_mut().enumerate() {
@@ -116,21 +136,27 @@ pub struct LinearElastic {
 }
 
 impl Material for LinearElastic {
-    fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse> {
+    fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
         let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
         let strain = (f + f.transpose()) * 0.5 - Matrix2::identity();
         let stress = Matrix2::identity() * (lambda * strain.trace()) + strain * (2.0 * mu);
+        stress.iter().all(|v| v.is_finite()).then(|| (0.5 * stress.dot(&strain), stress))
+    }
+
+    fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse> {
+        let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
+        let (energy, stress) = self.stress(f)?;
         let tangent = [
             [lambda + 2.0 * mu, 0.0, 0.0, lambda],
             [0.0, mu, mu, 0.0],
             [0.0, mu, mu, 0.0],
             [lambda, 0.0, 0.0, lambda + 2.0 * mu],
         ];
-        stress.iter().all(|v| v.is_finite()).then(|| StressResponse {
-            energy: 0.5 * stress.dot(&strain),
-            stress,
-            tangent,
-        })
+        Some(StressResponse { energy, stress, tangent })
+    }
+
+    fn linear(&self) -> bool {
+        true
     }
 
     fn youngs_modulus(&self) -> f64 {

@@ -2,6 +2,7 @@
 
 mod elements;
 mod material;
+mod stiffness;
 
 pub use elements::{BulkForces, Elements};
 pub use material::{LinearElastic, Material, NeoHookean, StressResponse, lame};

@@ -10,6 +10,7 @@ mod point;
 mod projection;
 mod sites;
 mod slip;
+mod start;
 
 pub use complementarity::{SiteAnswer, SiteInput, complementarity};
 pub use interface::{

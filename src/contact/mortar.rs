@@ -21,13 +21,14 @@ use super::assembly::Assembly;
 use super::complementarity::{SiteInput, complementarity};
 use super::integration::{EdgeFunctions, QuadraturePoint, mortar_cuts};
 use super::interface::{
-    ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial, Projection,
-    SiteMemory, Sites, Tangent,
+    Configuration, ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial,
+    Projection, SiteMemory, Sites, Tangent,
 };
 use super::kinematics::Orientation;
-use super::point::{Curves, PointState};
+use super::point::{Curves, PointState, seeker};
 use super::projection::Target;
 use super::sites::{Site, SiteState, group, recall};
+use super::start::{Partners, StartPartners};
 
 /// Numerical choices of a pair, all resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +65,7 @@ pub struct Mortar {
     /// `E / (shortest span)`.
     augmentation: f64,
     reach: f64,
+    start: StartPartners,
 }
 
 impl Mortar {
@@ -92,6 +94,7 @@ impl Mortar {
             stiffness: lengths.iter().map(|h| modulus / h).collect(),
             augmentation: modulus / shortest,
             reach: total,
+            start: StartPartners::default(),
             law: (!law.frictionless()).then_some(law),
             nonmortar,
             mortar,
@@ -112,6 +115,12 @@ impl Mortar {
     /// The law, where there is friction.
     pub fn law(&self) -> Option<&Arc<dyn FrictionLaw>> {
         self.law.as_ref()
+    }
+
+    /// Partners of the points at the start of the step.
+    fn partners(&self, points: &[QuadraturePoint], at: &Configuration) -> Partners {
+        let target = Target::new(&self.mortar, at.mortar, self.numerics.projection, self.reach);
+        points.iter().map(|p| target.project(&seeker(&self.nonmortar, &p.shape, at.nonmortar))).collect()
     }
 
     fn evaluate_site(
@@ -242,11 +251,13 @@ impl ContactDiscretization for Mortar {
             }
         };
         let points = segments.as_deref().unwrap_or(&self.points);
-        let projection = self.numerics.projection;
-        let old = Target::new(&self.mortar, start.at.mortar, projection, self.reach);
-        let new = Target::new(&self.mortar, trial.at.mortar, projection, self.reach);
-        let states: Vec<Option<PointState>> =
-            points.iter().map(|p| curves.point(p, (&old, start), (&new, trial), tangent != Tangent::None)).collect();
+        let find = || self.partners(points, &start.at);
+        let old = if segments.is_some() { find() } else { self.start.at(&start.at, find) };
+        let new = Target::new(&self.mortar, trial.at.mortar, self.numerics.projection, self.reach);
+        let state = |(p, was): (&_, &Option<_>)| {
+            curves.point(p, (was.as_ref(), start), (&new, trial), tangent != Tangent::None)
+        };
+        let states: Vec<Option<PointState>> = points.iter().zip(&*old).map(state).collect();
         let sites = group(points, self.numerics.sites, self.multipliers());
         let count = sites.len();
         let sites: Vec<SiteState> = sites

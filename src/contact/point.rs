@@ -6,7 +6,7 @@ use crate::math::{GaussRule, Vec2, rot90};
 use super::integration::QuadraturePoint;
 use super::interface::{Configuration, InterfaceStart, InterfaceTrial};
 use super::kinematics::{Frame, Orientation, SlotMatrix, Slots};
-use super::projection::{Partner, Seeker, Target};
+use super::projection::{Partner, Seeker, Target, parameter_near};
 use super::slip::{Path, path};
 
 /// The two curves of a pair and how they see each other.
@@ -51,12 +51,12 @@ pub fn seeker(curve: &Curve, shape: &Shape, points: &[Point]) -> Seeker {
 }
 
 impl Curves<'_> {
-    /// Kinematics of a point, or `None` without a partner. `old` and `new` are the mortar curve at the start of the
-    /// step and now.
+    /// Kinematics of a point, or `None` without a partner. `was` is its partner at the start of the step, `new` the mortar
+    /// curve now.
     pub fn point(
         &self,
         point: &QuadraturePoint,
-        (old, start): (&Target, &InterfaceStart),
+        (was, start): (Option<&Partner>, &InterfaceStart),
         (new, trial): (&Target, &InterfaceTrial),
         gradient: bool,
     ) -> Option<PointState> {
@@ -66,7 +66,7 @@ impl Curves<'_> {
         let [y, a, b, c] = [0, 1, 2, 3].map(|k| self.mortar.place(&partner.shape, k, trial.at.mortar));
         let d = here.x - y;
         let z = [d.x, d.y, a.x, a.y, b.x, b.y, edge.x, edge.y];
-        let from = self.anchor(point, old, start, &here, &partner, trial.at);
+        let from = self.anchor(point, was, start, &here, &partner, trial.at);
         let path = path(self.mortar, trial.at.mortar, self.rule, from, partner.xi, gradient);
         let frame = self.orientation.frame(&z);
         let normal = Vec2::new(frame.normal[0], frame.normal[1]);
@@ -88,18 +88,18 @@ impl Curves<'_> {
     fn anchor(
         &self,
         point: &QuadraturePoint,
-        old: &Target,
+        was: Option<&Partner>,
         start: &InterfaceStart,
         here: &Seeker,
         partner: &Partner,
         at: Configuration,
     ) -> f64 {
-        let before = seeker(self.nonmortar, &point.shape, start.at.nonmortar);
+        let before = self.nonmortar.place(&point.shape, 0, start.at.nonmortar);
         let moved = |shape: &Shape| {
             let y = self.mortar.place(shape, 0, at.mortar) - self.mortar.place(shape, 0, start.at.mortar);
-            (here.x - before.x - y).norm()
+            (here.x - before - y).norm()
         };
-        if let Some(was) = old.project(&before) {
+        if let Some(was) = was {
             let length = path(self.mortar, at.mortar, self.rule, was.xi, partner.xi, false).length.abs();
             let gap = (self.mortar.place(&partner.shape, 0, at.mortar) - here.x).norm();
             let bound = moved(&was.shape).max(moved(&partner.shape)) + gap;
@@ -107,7 +107,7 @@ impl Curves<'_> {
                 return was.xi;
             }
         }
-        old.parameter_near(before.x, partner.xi)
+        parameter_near(self.mortar, start.at.mortar, before, partner.xi)
     }
 
     /// Spreads coefficients on slots to the control points: `visit(control point, coefficient)`, numbered as in

@@ -37,6 +37,7 @@ pub struct Seeker {
 struct Sample {
     xi: f64,
     y: Point,
+    a: Vec2,
     normal: Vec2,
 }
 
@@ -61,8 +62,8 @@ impl<'a> Target<'a> {
             for k in 0..SAMPLES_PER_SPAN + usize::from(last) {
                 let xi = breaks[span] + (breaks[span + 1] - breaks[span]) * k as f64 / SAMPLES_PER_SPAN as f64;
                 let shape = curve.shape(span, xi);
-                let normal = rot90(curve.place(&shape, 1, points)) * curve.side;
-                samples.push(Sample { xi, y: curve.place(&shape, 0, points), normal });
+                let a = curve.place(&shape, 1, points);
+                samples.push(Sample { xi, y: curve.place(&shape, 0, points), a, normal: rot90(a) * curve.side });
             }
         }
         let fold = |f: fn(f64, f64) -> f64, start: f64| {
@@ -86,25 +87,6 @@ impl<'a> Target<'a> {
             Projection::Closest => self.closest(seeker),
             Projection::Ray => self.ray(seeker),
         }
-    }
-
-    /// The partner on the same flank as parameter `xi`: a local search from there (closest point of the curve to `x`).
-    /// Stops at the ends of the curve.
-    pub fn parameter_near(&self, x: Point, mut xi: f64) -> f64 {
-        let breaks = self.curve.basis.breaks();
-        let (start, end) = (breaks[0], breaks[breaks.len() - 1]);
-        for _ in 0..20 {
-            let shape = self.shape(xi);
-            let (y, a) = (self.curve.place(&shape, 0, self.points), self.curve.place(&shape, 1, self.points));
-            let step = (x - y).dot(&a) / a.norm_squared();
-            let next = (xi + step).clamp(start, end);
-            let done = (next - xi).abs() < 1e-14 * (end - start);
-            xi = next;
-            if done {
-                break;
-            }
-        }
-        xi
     }
 
     fn shape(&self, xi: f64) -> Shape {
@@ -133,15 +115,17 @@ impl<'a> Target<'a> {
             let [y, a, b] = [0, 1, 2].map(|k| self.curve.place(&shape, k, self.points));
             ((seeker.x - y).dot(&a), (seeker.x - y).dot(&b) - a.norm_squared())
         };
+        let at = |k: usize| (seeker.x - self.samples[k].y).dot(&self.samples[k].a);
         let mut low = best.saturating_sub(1);
         let mut high = (best + 1).min(self.samples.len() - 1);
-        while low > 0 && value(self.samples[low].xi).0 < 0.0 {
+        while low > 0 && at(low) < 0.0 {
             low -= 1;
         }
-        while high + 1 < self.samples.len() && value(self.samples[high].xi).0 > 0.0 {
+        while high + 1 < self.samples.len() && at(high) > 0.0 {
             high += 1;
         }
-        let xi = root(&|xi| value(xi), self.samples[low].xi, self.samples[high].xi, self.samples[best].xi)?;
+        let [low, high] = [low, high].map(|k| (self.samples[k].xi, at(k)));
+        let xi = root(value, low, high, self.samples[best].xi)?;
         self.partner(xi, seeker)
     }
 
@@ -167,7 +151,8 @@ impl<'a> Target<'a> {
                 let (f, df) = value(xi);
                 (sign * f, sign * df)
             };
-            let found = root(&oriented, pair[0].xi, pair[1].xi, 0.5 * (pair[0].xi + pair[1].xi))
+            let ends = [(pair[0].xi, -sign * low), (pair[1].xi, -sign * high)];
+            let found = root(oriented, ends[0], ends[1], 0.5 * (pair[0].xi + pair[1].xi))
                 .and_then(|xi| self.partner(xi, seeker));
             if let Some(partner) = found {
                 let distance = (self.curve.place(&partner.shape, 0, self.points) - seeker.x).norm();
@@ -180,11 +165,34 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Root of a function that falls from positive to negative over `[low, high]`: Newton, bisection where Newton leaves the
-/// bracket. `None` without a change of sign.
-fn root(f: &dyn Fn(f64) -> (f64, f64), mut low: f64, mut high: f64, start: f64) -> Option<f64> {
+/// The parameter on the same flank as `xi`: a local search from there for the point of the curve closest to `x`. Stops at
+/// the ends of the curve.
+pub fn parameter_near(curve: &Curve, points: &[Point], x: Point, mut xi: f64) -> f64 {
+    let breaks = curve.basis.breaks();
+    let (start, end) = (breaks[0], breaks[breaks.len() - 1]);
+    for _ in 0..20 {
+        let shape = curve.shape(curve.span_of(xi), xi);
+        let (y, a) = (curve.place(&shape, 0, points), curve.place(&shape, 1, points));
+        let step = (x - y).dot(&a) / a.norm_squared();
+        let next = (xi + step).clamp(start, end);
+        let done = (next - xi).abs() < 1e-14 * (end - start);
+        xi = next;
+        if done {
+            break;
+        }
+    }
+    xi
+}
+
+/// Root of a function that falls from positive to negative over `[low, high]` (both with its value there): Newton, bisection
+/// where Newton leaves the bracket. `None` without a change of sign.
+fn root(
+    f: impl Fn(f64) -> (f64, f64),
+    (mut low, at_low): (f64, f64),
+    (mut high, at_high): (f64, f64),
+    start: f64,
+) -> Option<f64> {
     let tolerance = 1e-15 * (high - low).abs().max(low.abs()).max(high.abs());
-    let (at_low, at_high) = (f(low).0, f(high).0);
     if at_low < 0.0 || at_high > 0.0 {
         return None;
     }

@@ -60,6 +60,20 @@ impl SparseMatrix {
         y
     }
 
+    /// Copies the lower half to the upper one, on a pattern that is symmetric and holds its diagonal.
+    pub fn mirror(&mut self) {
+        let Pattern { n, columns, rows } = &*self.pattern;
+        // Row by row the upper half is the lower one column by column; each column of it is full when its diagonal comes.
+        let mut next = columns.clone();
+        for j in 0..*n {
+            for k in next[j] + 1..columns[j + 1] {
+                let i = rows[k];
+                self.values[next[i]] = self.values[k];
+                next[i] += 1;
+            }
+        }
+    }
+
     /// Entry `(i, j)`, zero where the pattern has none.
     pub fn entry(&self, i: usize, j: usize) -> f64 {
         self.pattern.position(i, j).map_or(0.0, |k| self.values[k])

@@ -48,22 +48,22 @@ impl Evaluation {
 pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -> Option<Evaluation> {
     let mut forces = vec![Point::zeros(); model.nodes()];
     let wanted = tangent != Tangent::None;
-    let mut values = vec![0.0; if wanted { model.equations.pattern.rows.len() } else { 0 }];
+    let mut values = if wanted { model.equations.constant.clone() } else { vec![] };
+    values.resize(if wanted { model.equations.pattern.rows.len() } else { 0 }, 0.0);
     let mut strain_energy = 0.0;
     for (k, body) in model.bodies.iter().enumerate() {
         if let BodyKind::Deformable { elements, material, .. } = &body.kind {
-            let places = &model.equations.places[k];
-            strain_energy += elements.integrate(material.as_ref(), &trial.u[body.nodes()], wanted, |e, element| {
-                for (&a, f) in element.nodes.iter().zip(element.forces) {
-                    forces[body.offset + a] += f;
-                }
-                let n = element.stiffness.len();
-                for (&place, v) in places[e * n..(e + 1) * n].iter().zip(element.stiffness) {
-                    if place != u32::MAX {
-                        values[place as usize] += v;
+            let scatter = &model.equations.scatter[k];
+            let stiffness = wanted && !material.linear();
+            strain_energy +=
+                elements.integrate(material.as_ref(), &trial.u[body.nodes()], stiffness, |e, element| {
+                    for (&a, f) in element.nodes.iter().zip(element.forces) {
+                        forces[body.offset + a] += f;
                     }
-                }
-            })?;
+                    if stiffness {
+                        scatter.add(e, element.stiffness, &mut values);
+                    }
+                })?;
         }
     }
     let mut force_scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.amax()));
@@ -76,12 +76,13 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -
         }
     }
     let residual = residual(model, &forces, &interfaces, trial.time);
-    let system = wanted.then(|| System {
-        n: model.unknowns(),
-        bulk: SparseMatrix { pattern: model.equations.pattern.clone(), values },
-        interface: interface_entries(model, &interfaces),
-        boundary: model.boundary.clone(),
-    });
+    let mut bulk = SparseMatrix { pattern: model.equations.pattern.clone(), values };
+    if wanted {
+        bulk.mirror();
+    }
+    let interface = || interface_entries(model, &interfaces);
+    let system =
+        wanted.then(|| System { n: model.unknowns(), bulk, interface: interface(), boundary: model.boundary.clone() });
     Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale })
 }
 

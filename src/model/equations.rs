@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::bulk::Elements;
+use crate::geometry::Point;
 use crate::math::Pattern;
 
 use super::body::{Body, BodyKind};
@@ -29,9 +31,46 @@ pub struct Equations {
     pub of_motion: Vec<Option<usize>>,
     /// Pattern of the bulk stiffness.
     pub pattern: Arc<Pattern>,
-    /// For each deformable body, element by element and row-major, the place of each entry of the element stiffness in
-    /// the values of `pattern`; `u32::MAX` where a row or column is not an unknown.
-    pub places: Vec<Vec<u32>>,
+    /// Where the element stiffness of each body goes.
+    pub scatter: Vec<Scatter>,
+    /// Lower half of the stiffness of the bodies of linear material, on `pattern`; empty where there are none.
+    pub constant: Vec<f64>,
+}
+
+/// Where the entries of the element stiffnesses of a body belong in the lower half of the bulk stiffness.
+#[derive(Clone, Debug, Default)]
+pub struct Scatter {
+    /// Place in the element stiffness and in the values of the pattern, element by element.
+    entries: Vec<(u16, u32)>,
+    /// Where the entries of each element end.
+    ends: Vec<usize>,
+}
+
+impl Scatter {
+    /// For the unknowns of every element.
+    fn new(pattern: &Pattern, lists: &[Vec<Option<usize>>]) -> Self {
+        let mut this = Self::default();
+        for list in lists {
+            let known = || list.iter().enumerate().filter_map(|(k, e)| Some((k, (*e)?)));
+            for (j, column) in known() {
+                for (i, row) in known().filter(|(_, row)| *row >= column) {
+                    let target = pattern.position(row, column).expect("elements are cliques of the pattern");
+                    let place = u16::try_from(Elements::place(i, j)).expect("at most 81 nodes in an element");
+                    this.entries.push((place, u32::try_from(target).expect("fewer than 2^32 entries")));
+                }
+            }
+            this.ends.push(this.entries.len());
+        }
+        this
+    }
+
+    /// Adds the stiffness of element `e` to the values of the pattern.
+    pub fn add(&self, e: usize, stiffness: &[f64], values: &mut [f64]) {
+        let start = if e == 0 { 0 } else { self.ends[e - 1] };
+        for &(from, to) in &self.entries[start..self.ends[e]] {
+            values[to as usize] += stiffness[from as usize];
+        }
+    }
 }
 
 impl Equations {
@@ -67,8 +106,9 @@ impl Equations {
         let known = |list: &[Option<usize>]| list.iter().flatten().copied().collect();
         let diagonal = (0..count).map(|i| vec![i]);
         let pattern = Pattern::from_cliques(count, lists.iter().flatten().map(|l| known(l)).chain(diagonal));
-        let places = lists.iter().map(|body| body.iter().flat_map(|list| places(&pattern, list)).collect()).collect();
-        Self { dofs, count, of_motion, pattern: Arc::new(pattern), places }
+        let scatter: Vec<Scatter> = lists.iter().map(|lists| Scatter::new(&pattern, lists)).collect();
+        let constant = constant(bodies, &pattern, &scatter);
+        Self { dofs, count, of_motion, pattern: Arc::new(pattern), scatter, constant }
     }
 
     /// Unknown behind a displacement component.
@@ -92,10 +132,18 @@ fn element_unknowns(body: &Body, dofs: &[[Dof; 2]]) -> Vec<Vec<Option<usize>>> {
         .collect()
 }
 
-fn places(pattern: &Pattern, list: &[Option<usize>]) -> Vec<u32> {
-    let place = |i: Option<usize>, j: Option<usize>| {
-        let position = pattern.position(i?, j?)?;
-        u32::try_from(position).ok()
-    };
-    list.iter().flat_map(|&i| list.iter().map(move |&j| place(i, j).unwrap_or(u32::MAX))).collect()
+/// Stiffness of the bodies of linear material, at no displacement as at any other.
+fn constant(bodies: &[Body], pattern: &Pattern, scatter: &[Scatter]) -> Vec<f64> {
+    let mut values = Vec::new();
+    for (body, scatter) in bodies.iter().zip(scatter) {
+        if let BodyKind::Deformable { elements, material, .. } = &body.kind
+            && material.linear()
+        {
+            values.resize(pattern.rows.len(), 0.0);
+            let rest = vec![Point::zeros(); body.points.len()];
+            let add = |e: usize, found: crate::bulk::BulkForces| scatter.add(e, found.stiffness, &mut values);
+            elements.integrate(material.as_ref(), &rest, true, add).expect("a linear material has a state at rest");
+        }
+    }
+    values
 }
