@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let model = model(mu, 0.05 / 2f64.powi(level - 1), basis, sites)?;
     println!("{} unknowns", model.unknowns());
     println!("{:>4} {:>8} {:>12} {:>12} {:>10} {:>10} it cuts", "step", "x_c", "Fx", "Fy", "mu_global", "angle");
-    let control = solve::Control { end: 1.0, steps, max_cuts: 8 };
+    let control = solve::Control { end: 1.0, steps, max_cuts: 8, strategy: Default::default() };
     let outcome = solve::march(
         &model,
         State::initial(&model),

@@ -102,7 +102,7 @@ struct Found {
 fn run(per_a: f64, sites: Sites, hold: usize) -> Found {
     let model = model(per_a, sites);
     let steps = PRESS_STEPS + SHEAR_STEPS + hold;
-    let control = solve::Control { end: steps as f64, steps, max_cuts: 0 };
+    let control = solve::Control { end: steps as f64, steps, max_cuts: 0, strategy: Default::default() };
     let (quiet, mut solver) = (AtomicBool::new(false), CondensedSolver::default());
     let (mut interfaces, mut force, mut iterations) = (vec![], [0.0; 2], vec![]);
     let outcome = solve::march(&model, State::initial(&model), &control, &mut solver, &quiet, |report| {

@@ -129,7 +129,7 @@ impl Case {
     /// Errors against Hertz' solution for the force that is found, in percent.
     fn errors(&self) -> [f64; 3] {
         let model = self.model();
-        let control = solve::Control { end: 1.0, steps: 1, max_cuts: 0 };
+        let control = solve::Control { end: 1.0, steps: 1, max_cuts: 0, strategy: Default::default() };
         let (quiet, mut solver) = (AtomicBool::new(false), CondensedSolver::default());
         let mut found = None;
         let outcome = solve::march(&model, State::initial(&model), &control, &mut solver, &quiet, |report| {

@@ -127,7 +127,7 @@ fn repetition_and_restart_are_bitwise_equal() {
     let half = serde_json::to_string(&first.states[3]).expect("serialises");
     let state: State = serde_json::from_str(&half).expect("deserialises");
     assert_eq!(state, first.states[3], "round trip");
-    let control = Control { end: 1.0, steps: climb().steps, max_cuts: 8 };
+    let control = Control { end: 1.0, steps: climb().steps, max_cuts: 8, strategy: Default::default() };
     let mut states = vec![];
     let outcome =
         march(&first.model, state, &control, &mut CondensedSolver::default(), &AtomicBool::new(false), |report| {

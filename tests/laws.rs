@@ -4,7 +4,7 @@ mod support;
 
 use asperity::laws::{self, FrictionLaw};
 use asperity::math::CondensedSolver;
-use asperity::solve::{Status, solve_step};
+use asperity::solve::{Status, Strategy, solve_step};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use support::{Pass, Run, climb, done, pass, run};
@@ -45,7 +45,8 @@ fn orders(found: &Run) -> [f64; 2] {
         .map(|k| {
             let (mut solver, quiet, mut count) = (CondensedSolver::default(), AtomicBool::new(false), 0);
             let (start, time) = (&found.states[k - 1], found.states[k].time);
-            let step = solve_step(&found.model, start, time, &mut solver, &quiet, &mut count).expect("converges again");
+            let step = solve_step(&found.model, start, time, Strategy::default(), &mut solver, &quiet, &mut count)
+                .expect("converges again");
             let r: Vec<f64> = step.residuals.iter().map(|v| v / step.evaluation.force_scale).collect();
             match r[..] {
                 [.., before, last] => last.max(1e-13).ln() / before.ln(),

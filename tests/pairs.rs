@@ -63,7 +63,7 @@ fn scene(text: &str, sets: &[&str]) -> Scene {
 fn two_pairs_carry_the_same_uniform_pressure() {
     let model = build(&scene(STACK, &[]), Path::new(".")).expect("a model");
     let mut rows = vec![];
-    let control = Control { end: 1.0, steps: 2, max_cuts: 2 };
+    let control = Control { end: 1.0, steps: 2, max_cuts: 2, strategy: Default::default() };
     let quiet = AtomicBool::new(false);
     let outcome = march(&model, State::initial(&model), &control, &mut CondensedSolver::default(), &quiet, |report| {
         rows = interface_rows(&model, report.evaluation, report.record.step);
@@ -93,7 +93,7 @@ fn a_step_through_a_body_meets_it() {
     let drag = "drive.0.y={ displacement = { time = [0.0, 1.0], value = [0.0, -4.0] } }";
     let model = build(&scene(STACK, &[drag, "body.top.position=[0.0, 2.05]"]), Path::new(".")).expect("a model");
     let mut records: Vec<Record> = vec![];
-    let control = Control { end: 1.0, steps: 1, max_cuts: 3 };
+    let control = Control { end: 1.0, steps: 1, max_cuts: 3, strategy: Default::default() };
     let quiet = AtomicBool::new(false);
     let outcome = march(&model, State::initial(&model), &control, &mut CondensedSolver::default(), &quiet, |report| {
         records.push(report.record);

@@ -4,7 +4,7 @@ mod support;
 
 use asperity::contact::Sites;
 use asperity::math::CondensedSolver;
-use asperity::solve::solve_step;
+use asperity::solve::{Strategy, solve_step};
 use std::sync::atomic::AtomicBool;
 use support::{Pass, Run, done, pass, run};
 
@@ -100,7 +100,8 @@ fn last_iterations_are_quadratic() {
     for (k, start) in found.states.iter().enumerate().skip(2).take(4) {
         let time = found.states[k + 1].time;
         let (mut solver, quiet, mut count) = (CondensedSolver::default(), AtomicBool::new(false), 0);
-        let step = solve_step(&found.model, start, time, &mut solver, &quiet, &mut count).expect("converges");
+        let step = solve_step(&found.model, start, time, Strategy::default(), &mut solver, &quiet, &mut count)
+            .expect("converges");
         let scale = step.evaluation.force_scale;
         let r: Vec<f64> = step.residuals.iter().map(|v| v / scale).collect();
         println!("{r:?}");

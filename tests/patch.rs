@@ -15,7 +15,7 @@ use asperity::geometry::{BasisSpec, Edge, Patch, Point, ShapeSpec, build};
 use asperity::laws::builtin::Coulomb;
 use asperity::math::{CondensedSolver, LinearSolver};
 use asperity::model::{BodySpec, Builder, Control, Evaluation, Model, PairSpec, State, Table, evaluate};
-use asperity::solve::solve_step;
+use asperity::solve::{Strategy, solve_step};
 use nalgebra::Matrix2;
 
 const MODULUS: f64 = 1000.0;
@@ -111,7 +111,7 @@ fn solve(model: &Model, steps: usize) -> (State, Evaluation) {
     let mut last = None;
     for step in 1..=steps {
         let time = step as f64 / steps as f64;
-        let found = solve_step(model, &state, time, &mut solver, &AtomicBool::new(false), &mut 0);
+        let found = solve_step(model, &state, time, Strategy::default(), &mut solver, &AtomicBool::new(false), &mut 0);
         let mut trial = found.unwrap_or_else(|e| panic!("step {step}: {e}")).state;
         for _ in 0..12 {
             let evaluation = evaluate(model, &state, &trial, Tangent::Exact).expect("admissible");

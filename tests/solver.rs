@@ -8,9 +8,9 @@ use asperity::math::{
     CondensedSolver, DenseLu, DenseMatrix, LinearSolver, Pattern, SolveError, SparseLu, SparseMatrix, System,
 };
 use asperity::model::{Model, State};
-use asperity::solve::{self, Status};
+use asperity::solve::{self, Status, Strategy};
 use proptest::prelude::*;
-use support::{Pass, climb, pass};
+use support::{Pass, climb, pass, run_by};
 
 /// Two chains of `n` masses with springs to their second neighbours; unknown `i` belongs to chain `i % 2`.
 #[derive(Clone, Debug)]
@@ -184,7 +184,7 @@ fn an_unchanged_bulk_is_not_factored_again() {
 
 /// Forces and positions after some steps into contact.
 fn march(model: &Model, steps: usize, solver: &mut dyn LinearSolver) -> State {
-    let control = solve::Control { end: 1.0, steps, max_cuts: 8 };
+    let control = solve::Control { end: 1.0, steps, max_cuts: 8, strategy: Default::default() };
     let quiet = std::sync::atomic::AtomicBool::new(false);
     let report = |_: solve::StepReport| Ok::<(), std::convert::Infallible>(());
     let outcome = solve::march(model, State::initial(model), &control, solver, &quiet, report);
@@ -212,4 +212,19 @@ fn a_climb_is_that_of_the_reference_solver_and_repeats_itself() {
         let counters = condensed.counters();
         assert_eq!((counters.indefinite, counters.coupled, counters.inaccurate), (0, 0, 0));
     }
+}
+
+#[test]
+fn an_inner_loop_on_the_interface_finds_the_same_solution() {
+    let setup = Pass { element: 0.1, from: -0.6, to: 0.2, steps: 16, ..Pass::default() };
+    let [monolithic, interface] =
+        [Strategy::Monolithic, Strategy::Interface].map(|strategy| run_by(pass(&setup), setup.steps, strategy));
+    assert_eq!(interface.outcome.status, solve::Status::Done);
+    for (a, b) in monolithic.records.iter().zip(&interface.records) {
+        for c in 0..2 {
+            assert!((a.force[c] - b.force[c]).abs() < 1e-8 * monolithic.peak(c), "step {}", a.step);
+        }
+    }
+    println!("linear solves with a new bulk: {} and {}", monolithic.outcome.iterations, interface.outcome.iterations);
+    assert!(interface.outcome.iterations < monolithic.outcome.iterations);
 }

@@ -11,7 +11,7 @@ use asperity::geometry::{BasisSpec, Edge, Profile, ShapeSpec, build};
 use asperity::laws::*;
 use asperity::math::SparseLu;
 use asperity::model::{BodySpec, Builder, Control, Model, PairSpec, State, Table};
-use asperity::solve::{solve_step, weakening};
+use asperity::solve::{Strategy, solve_step, weakening};
 use asperity::verify::{Audit, Expectations};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
@@ -94,7 +94,9 @@ fn the_share_of_the_stiffness_is_that_of_a_sheared_layer() {
         let model = dragged(law, height, pressure, drag);
         let start = State::initial(&model);
         let (mut solver, quiet, mut count) = (SparseLu::default(), AtomicBool::new(false), 0);
-        let end = solve_step(&model, &start, 1.0, &mut solver, &quiet, &mut count).expect("converges").state;
+        let end = solve_step(&model, &start, 1.0, Strategy::default(), &mut solver, &quiet, &mut count)
+            .expect("converges")
+            .state;
         let share = weakening::largest(&model, &start, &end, &mut solver).expect("solvable");
         (share / expected - 1.0).abs()
     };

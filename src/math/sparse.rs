@@ -52,12 +52,17 @@ impl SparseMatrix {
     /// `y = A x`.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.pattern.n];
+        self.add_product(x, &mut y);
+        y
+    }
+
+    /// `y += A x`.
+    pub fn add_product(&self, x: &[f64], y: &mut [f64]) {
         for (range, xj) in self.pattern.columns.windows(2).zip(x) {
             for k in range[0]..range[1] {
                 y[self.pattern.rows[k]] += self.values[k] * xj;
             }
         }
-        y
     }
 
     /// Copies the lower half to the upper one, on a pattern that is symmetric and holds its diagonal.

@@ -67,15 +67,15 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -
         }
     }
     let mut force_scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.amax()));
-    let interfaces: Vec<InterfaceForces> =
-        model.pairs.iter().enumerate().map(|(k, pair)| interface(model, pair, k, start, trial, tangent)).collect();
+    let interfaces = interfaces(model, start, trial, tangent);
+    let mut residual = residual(model, &forces, trial.time);
+    add_interface(model, &interfaces, &mut residual);
     for (pair, found) in model.pairs.iter().zip(&interfaces) {
-        for (&node, f) in pair.nonmortar.nodes.iter().chain(&pair.mortar.nodes).zip(&found.forces) {
+        for (node, f) in pair.nodes().zip(&found.forces) {
             forces[node] += f;
             force_scale = force_scale.max(f.amax());
         }
     }
-    let residual = residual(model, &forces, &interfaces, trial.time);
     let mut bulk = SparseMatrix { pattern: model.equations.pattern.clone(), values };
     if wanted {
         bulk.mirror();
@@ -98,6 +98,11 @@ pub fn explain(model: &Model, start: &State, found: &Evaluation, dt: f64) -> Opt
     pairs.find_map(|((pair, old), found)| pair.contact.explain(&old.sites, found, dt))
 }
 
+/// Contact of all pairs.
+pub(super) fn interfaces(model: &Model, start: &State, trial: &State, tangent: Tangent) -> Vec<InterfaceForces> {
+    model.pairs.iter().enumerate().map(|(k, pair)| interface(model, pair, k, start, trial, tangent)).collect()
+}
+
 fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State, tangent: Tangent) -> InterfaceForces {
     let place = |side: &Side, state: &State| -> Vec<Point> {
         let body = &model.bodies[side.body];
@@ -118,7 +123,8 @@ fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State,
     pair.contact.evaluate(&from, &to, tangent)
 }
 
-fn residual(model: &Model, forces: &[Point], interfaces: &[InterfaceForces], time: f64) -> Vec<f64> {
+/// Nodal forces less the loads, at the equations.
+fn residual(model: &Model, forces: &[Point], time: f64) -> Vec<f64> {
     let mut residual = vec![0.0; model.unknowns()];
     for (node, f) in forces.iter().enumerate() {
         for c in 0..2 {
@@ -132,21 +138,32 @@ fn residual(model: &Model, forces: &[Point], interfaces: &[InterfaceForces], tim
             residual[*e] -= table.at(time);
         }
     }
-    for (pair, found) in model.pairs.iter().zip(interfaces) {
-        let rows = &mut residual[pair.offset..pair.offset + pair.unknowns()];
-        let scale = pair.contact.augmentation();
-        rows.iter_mut().zip(&found.multiplier_rows).for_each(|(row, v)| *row = scale * v);
-    }
     residual
+}
+
+/// Adds interface forces and multiplier rows.
+pub(super) fn add_interface(model: &Model, interfaces: &[InterfaceForces], residual: &mut [f64]) {
+    for (pair, found) in model.pairs.iter().zip(interfaces) {
+        for (node, f) in pair.nodes().zip(&found.forces) {
+            for c in 0..2 {
+                if let Some(e) = model.equations.unknown(node, c) {
+                    residual[e] += f[c];
+                }
+            }
+        }
+        let scale = pair.contact.augmentation();
+        let rows = &mut residual[pair.offset..pair.offset + pair.unknowns()];
+        rows.iter_mut().zip(&found.multiplier_rows).for_each(|(row, v)| *row += scale * v);
+    }
 }
 
 /// Local entries of the pairs at the unknowns of the model. Multiplier unknowns are `p/r` and their rows are multiplied
 /// by `r`, so that all blocks have the size of `E`.
-fn interface_entries(model: &Model, interfaces: &[InterfaceForces]) -> Triplets {
+pub(super) fn interface_entries(model: &Model, interfaces: &[InterfaceForces]) -> Triplets {
     let mut entries = Triplets::new();
     for (pair, found) in model.pairs.iter().zip(interfaces) {
         let scale = pair.contact.augmentation();
-        let nodes: Vec<usize> = pair.nonmortar.nodes.iter().chain(&pair.mortar.nodes).copied().collect();
+        let nodes: Vec<usize> = pair.nodes().collect();
         let unknown = |i: usize| match nodes.get(i / 2) {
             Some(&node) => model.equations.unknown(node, i % 2).map(|e| (e, 1.0)),
             None => Some((pair.offset + i - 2 * nodes.len(), scale)),

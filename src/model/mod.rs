@@ -4,6 +4,7 @@ mod assembly;
 mod body;
 mod build;
 mod equations;
+mod linearised;
 mod motion;
 mod record;
 mod state;
@@ -13,6 +14,7 @@ pub use assembly::{Evaluation, evaluate, explain, suggested_step};
 pub use body::{Body, BodyKind};
 pub use build::{BodySpec, Builder, ModelError, PairSpec};
 pub use equations::{Dof, Equations};
+pub use linearised::Linearised;
 pub use motion::{Control, Motion, Table};
 pub use record::{InterfaceRow, Record, interface_rows, record};
 pub use state::{Ledger, PairState, State, Trend};
@@ -47,6 +49,11 @@ impl Pair {
     /// Number of multiplier unknowns.
     pub fn unknowns(&self) -> usize {
         self.contact.multipliers() * if self.contact.rubs() { 2 } else { 1 }
+    }
+
+    /// Control points of the two contact curves, nonmortar first.
+    pub fn nodes(&self) -> impl Iterator<Item = usize> {
+        self.nonmortar.nodes.iter().chain(&self.mortar.nodes).copied()
     }
 }
 

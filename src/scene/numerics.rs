@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Basis;
 use crate::math::{CondensedSolver, LinearSolver, SparseLu};
+use crate::solve::Strategy;
 
 /// How a contact is discretized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -88,6 +89,8 @@ pub enum Integration {
 pub struct Solution {
     /// Solver of the linear systems.
     pub solver: Solver,
+    /// How a Newton iteration treats contact. The solution does not depend on it.
+    pub strategy: Strategy,
 }
 
 /// Solver of the linear systems. The solution does not depend on it.

@@ -26,7 +26,12 @@ pub struct RunReport {
 
 /// The nominal steps of a scene.
 pub fn time_plan(scene: &Scene) -> Control {
-    Control { end: scene.time.end, steps: scene.time.steps, max_cuts: scene.time.max_cuts }
+    Control {
+        end: scene.time.end,
+        steps: scene.time.steps,
+        max_cuts: scene.time.max_cuts,
+        strategy: scene.solution.strategy,
+    }
 }
 
 /// Computes a scene and writes everything into `folder`; `watch` sees each nominal step as it is reached. Whatever the

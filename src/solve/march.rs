@@ -6,6 +6,7 @@ use std::time::Instant;
 use crate::math::LinearSolver;
 use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record, suggested_step};
 
+use super::Strategy;
 use super::newton::{NewtonReport, StepFailure, solve_step};
 use super::status::{Outcome, Status};
 
@@ -21,6 +22,8 @@ pub struct Control {
     pub steps: usize,
     /// How often a nominal step may be halved.
     pub max_cuts: u32,
+    /// How a Newton iteration treats contact.
+    pub strategy: Strategy,
 }
 
 /// A nominal step that was reached.
@@ -51,6 +54,7 @@ pub fn march<E>(
     let smallest = nominal * 0.5_f64.powi(control.max_cuts as i32);
     let mut march = March {
         model,
+        strategy: control.strategy,
         solver,
         interrupt,
         nominal,
@@ -103,6 +107,7 @@ fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
 /// A march under way.
 struct March<'a> {
     model: &'a Model,
+    strategy: Strategy,
     solver: &'a mut dyn LinearSolver,
     interrupt: &'a AtomicBool,
     nominal: f64,
@@ -161,7 +166,7 @@ impl March<'_> {
     /// One step; accepted unless the law finds it too long.
     fn step(&mut self, next: f64) -> Result<NewtonReport, StepFailure> {
         let (start, iterations) = (&self.outcome.state, &mut self.outcome.iterations);
-        let mut done = solve_step(self.model, start, next, self.solver, self.interrupt, iterations)?;
+        let mut done = solve_step(self.model, start, next, self.strategy, self.solver, self.interrupt, iterations)?;
         let dt = next - start.time;
         let law = suggested_step(self.model, start, &done.evaluation, dt);
         if law < VETO * dt {

@@ -1,12 +1,14 @@
 //! Solving: Newton for one step, and the march through time that cuts and regrows steps.
 
 mod floating;
+mod interface_loop;
 mod march;
 mod newton;
 mod predictor;
 mod status;
 pub mod weakening;
 
+pub use interface_loop::Strategy;
 pub use march::{Control, StepReport, march};
 pub use newton::{NewtonReport, StepFailure, solve_step};
 pub use predictor::predict;

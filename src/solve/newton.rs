@@ -3,9 +3,10 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::math::{LinearSolver, SolveError};
-use crate::model::{Evaluation, Model, State, Tangent, evaluate, explain};
+use crate::model::{Evaluation, Linearised, Model, State, Tangent, evaluate, explain};
 
 use super::floating::{hint, support_floating};
+use super::interface_loop::{Strategy, negative, settle};
 use super::predictor::{guesses, trend};
 use super::weakening::{self, Linearisation};
 
@@ -85,15 +86,15 @@ pub fn solve_step(
     model: &Model,
     start: &State,
     time: f64,
+    strategy: Strategy,
     solver: &mut dyn LinearSolver,
     interrupt: &AtomicBool,
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
-    let mut step = Step { model, start, solver, interrupt, iterations, weakens: false };
+    let mut step = Step { model, start, strategy, solver, interrupt, iterations, weakens: false };
     let mut failure = None;
-    for (guess, forces) in guesses(model, start, time) {
-        if step.balanced(&forces) {
-            // nothing touches, or nothing moves
+    for (guess, forces) in guesses(model, start, time, |found| balanced(model, found)) {
+        if balanced(model, &forces) {
             return Ok(step.converged(guess, forces, vec![]));
         }
         match step.attempt(guess) {
@@ -109,6 +110,7 @@ pub fn solve_step(
 struct Step<'a> {
     model: &'a Model,
     start: &'a State,
+    strategy: Strategy,
     solver: &'a mut dyn LinearSolver,
     interrupt: &'a AtomicBool,
     iterations: &'a mut usize,
@@ -132,12 +134,6 @@ impl Step<'_> {
         }
     }
 
-    /// True where the residual is as small as is asked for.
-    fn balanced(&self, evaluation: &Evaluation) -> bool {
-        let floor = ROUND_OFF * self.model.modulus * self.model.size();
-        largest(&evaluation.residual) <= RELATIVE * evaluation.force_scale + floor
-    }
-
     fn newton(&mut self, mut trial: State, mut way: Linearisation) -> Result<NewtonReport, StepFailure> {
         let model = self.model;
         let mut evaluation = evaluate(model, self.start, &trial, way.tangent).ok_or(StepFailure::Inverted(0))?;
@@ -147,7 +143,7 @@ impl Step<'_> {
             let size = largest(&evaluation.residual);
             residuals.push(size);
             self.weakens |= weakening::weakens(&evaluation);
-            if self.balanced(&evaluation) {
+            if balanced(model, &evaluation) {
                 return Ok(self.converged(trial, evaluation, residuals));
             }
             if size.is_nan()
@@ -164,7 +160,7 @@ impl Step<'_> {
                 return Err(StepFailure::Interrupted);
             }
             *self.iterations += 1;
-            let increment = self.increment(&mut evaluation)?;
+            let increment = self.increment(&trial, &mut evaluation, &way)?;
             way.choose(size / evaluation.force_scale);
             (trial, evaluation) = self
                 .update(&trial, &increment, evaluation.norm(), way.tangent)
@@ -173,11 +169,22 @@ impl Step<'_> {
     }
 
     /// The Newton increment; takes the system out of the evaluation.
-    fn increment(&mut self, evaluation: &mut Evaluation) -> Result<Vec<f64>, SolveError> {
-        let right: Vec<f64> = evaluation.residual.iter().map(|v| -v).collect();
+    fn increment(
+        &mut self,
+        trial: &State,
+        evaluation: &mut Evaluation,
+        way: &Linearisation,
+    ) -> Result<Vec<f64>, SolveError> {
         let mut system = evaluation.system.take().expect("evaluated with tangent");
+        let before = system.interface.len();
         support_floating(self.model, evaluation, &mut system.interface);
-        self.solver.solve(&system, &right)
+        let floats = system.interface.len() > before;
+        let increment = self.solver.solve(&system, &negative(&evaluation.residual))?;
+        if floats || way.lags() || self.strategy == Strategy::Monolithic {
+            return Ok(increment);
+        }
+        let bodies = Linearised::at(self.model, self.start, trial.clone(), evaluation, system);
+        Ok(settle(bodies, increment, evaluation, self.solver))
     }
 
     /// Adds the increment. A step along which the residual grows beyond [`GROWTH`] is halved a few times and the best length
@@ -234,6 +241,12 @@ impl Step<'_> {
             None => String::new(),
         }
     }
+}
+
+/// True where the residual is as small as is asked for.
+fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
+    let floor = ROUND_OFF * model.modulus * model.size();
+    largest(&evaluation.residual) <= RELATIVE * evaluation.force_scale + floor
 }
 
 /// Largest magnitude; `NaN` if there is one.

@@ -80,17 +80,26 @@ fn load(model: &Model, body: usize, time: f64) -> Point {
 }
 
 /// Guesses for the end of a step with their forces, the one with the smallest residual first; those that turn a body inside
-/// out are left out.
-pub fn guesses(model: &Model, start: &State, time: f64) -> Vec<(State, Evaluation)> {
-    let mut guesses = vec![predict(model, start, time)];
+/// out are left out. One that is good enough as it is comes alone: nothing touches, or nothing moves.
+pub fn guesses(
+    model: &Model,
+    start: &State,
+    time: f64,
+    enough: impl Fn(&Evaluation) -> bool,
+) -> Vec<(State, Evaluation)> {
+    let judge = |mut trial: State| land(model, start, &mut trial).map(|found| (trial, found));
+    let rigid = judge(predict(model, start, time));
+    if rigid.as_ref().is_some_and(|(_, found)| enough(found)) {
+        return rigid.into_iter().collect();
+    }
+    let mut guesses = vec![];
     if let Some(trend) = &start.trend {
         guesses.push(extrapolate(model, start, time, trend, false));
         if !trend.change.is_empty() {
             guesses.push(extrapolate(model, start, time, trend, true));
         }
     }
-    let judge = |mut trial: State| land(model, start, &mut trial).map(|found| (trial, found));
-    let mut judged: Vec<(State, Evaluation)> = guesses.into_iter().filter_map(judge).collect();
+    let mut judged: Vec<(State, Evaluation)> = rigid.into_iter().chain(guesses.into_iter().filter_map(judge)).collect();
     judged.sort_by(|(_, a), (_, b)| a.norm().total_cmp(&b.norm()));
     judged
 }

@@ -16,7 +16,7 @@ use asperity::math::CondensedSolver;
 use asperity::model::{
     BodySpec, Builder, Control, InterfaceRow, Model, PairSpec, Record, State, Table, interface_rows,
 };
-use asperity::solve::{self, Outcome, Status};
+use asperity::solve::{self, Outcome, Status, Strategy};
 
 /// What can be varied. Lengths are multiples of `length`, moduli of `stress`.
 #[derive(Clone, Debug)]
@@ -129,8 +129,13 @@ impl Run {
 
 /// Runs a model over `[0, 1]`.
 pub fn run(model: Model, steps: usize) -> Run {
+    run_by(model, steps, Strategy::default())
+}
+
+/// The same by a strategy.
+pub fn run_by(model: Model, steps: usize, strategy: Strategy) -> Run {
     let (mut records, mut states, mut rows) = (vec![], vec![], vec![]);
-    let control = solve::Control { end: 1.0, steps, max_cuts: 8 };
+    let control = solve::Control { end: 1.0, steps, max_cuts: 8, strategy };
     let quiet = AtomicBool::new(false);
     let outcome =
         solve::march(&model, State::initial(&model), &control, &mut CondensedSolver::default(), &quiet, |report| {
