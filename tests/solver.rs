@@ -8,7 +8,7 @@ use asperity::math::{
     CondensedSolver, DenseLu, DenseMatrix, LinearSolver, Pattern, SolveError, SparseLu, SparseMatrix, System,
 };
 use asperity::model::{Model, State};
-use asperity::solve::{self, Status, Strategy};
+use asperity::solve::{self, Status};
 use proptest::prelude::*;
 use support::{Pass, climb, pass, run_by};
 
@@ -218,7 +218,7 @@ fn a_climb_is_that_of_the_reference_solver_and_repeats_itself() {
 fn an_inner_loop_on_the_interface_finds_the_same_solution() {
     let setup = Pass { element: 0.1, from: -0.6, to: 0.2, steps: 16, ..Pass::default() };
     let [monolithic, interface] =
-        [Strategy::Monolithic, Strategy::Interface].map(|strategy| run_by(pass(&setup), setup.steps, strategy));
+        [solve::Strategy::Monolithic, solve::Strategy::Interface].map(|strategy| run_by(pass(&setup), setup.steps, strategy));
     assert_eq!(interface.outcome.status, solve::Status::Done);
     for (a, b) in monolithic.records.iter().zip(&interface.records) {
         for c in 0..2 {

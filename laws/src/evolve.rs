@@ -49,7 +49,7 @@ pub fn evolve<const N: usize>(
 ) -> [Dual; N] {
     let start: [f64; N] = old.try_into().expect("one old value per rate");
     let step = Step { start, dt, rate };
-    let end = step.end().and_then(|z| step.with_tangent(z)).unwrap_or([dual::constant(f64::NAN); N]);
+    let end = step.end().and_then(|end| end.with_tangent(dt)).unwrap_or([dual::constant(f64::NAN); N]);
     new.copy_from_slice(&end);
     end
 }
@@ -60,18 +60,33 @@ struct Step<const N: usize, F> {
     rate: F,
 }
 
+/// A solution, with rates and matrix at the iterate before the last correction: apart by round-off only.
+struct Solved<const N: usize> {
+    z: [f64; N],
+    rates: [Dual; N],
+    matrix: [[f64; N]; N],
+}
+
+impl<const N: usize> Solved<N> {
+    fn with_tangent(&self, dt: f64) -> Option<[Dual; N]> {
+        let column = |k: usize| solve(self.matrix, self.rates.map(|f| dt * dual::derivatives(&f).1[k]));
+        let (by_pressure, by_slip) = (column(0)?, column(1)?);
+        Some(std::array::from_fn(|i| dual::with_derivatives(self.z[i], [by_pressure[i], by_slip[i]])))
+    }
+}
+
 impl<const N: usize, F: Fn([Dual; N]) -> [Dual; N]> Step<N, F> {
     /// State at the end: directly, or in stages that grow while they succeed.
-    fn end(&self) -> Option<[f64; N]> {
-        if let Some(z) = self.newton(self.start, self.dt) {
-            return Some(z);
+    fn end(&self) -> Option<Solved<N>> {
+        if let Some(end) = self.newton(self.start, self.dt) {
+            return Some(end);
         }
         let (mut z, mut done, mut stage) = (self.start, 0.0, 0.25);
         for _ in 0..STAGES {
             let theta = f64::min(done + stage, 1.0);
             match self.newton(z, theta * self.dt) {
                 Some(end) if theta == 1.0 => return Some(end),
-                Some(next) => (z, done, stage) = (next, theta, 2.0 * stage),
+                Some(next) => (z, done, stage) = (next.z, theta, 2.0 * stage),
                 None if stage > SMALLEST_STAGE * f64::max(done, SMALLEST_STAGE) => stage *= 0.5,
                 None => return None,
             }
@@ -79,24 +94,26 @@ impl<const N: usize, F: Fn([Dual; N]) -> [Dual; N]> Step<N, F> {
         None
     }
 
-    fn newton(&self, guess: [f64; N], h: f64) -> Option<[f64; N]> {
+    fn newton(&self, guess: [f64; N], h: f64) -> Option<Solved<N>> {
         let (mut z, mut last) = (guess, f64::INFINITY);
+        let mut f = self.rates(&z);
         for _ in 0..NEWTON_STEPS {
-            let f = self.rates(&z);
             let matrix = self.matrix(&z, &f, h);
             let residual = self.residual(&z, &f, h);
             let correction = solve(matrix, residual)?;
             let weights = std::array::from_fn(|i| z[i].abs() + self.start[i].abs() + correction[i].abs());
             let size = size(&correction, &weights);
             if size <= CONVERGED || (size <= STAGNATED && size >= 0.5 * last) {
-                return self.solved(&z, &matrix, &residual).then(|| advance(&z, 1.0, &correction));
+                let end = Solved { z: advance(&z, 1.0, &correction), rates: f, matrix };
+                return self.balanced(&z, &matrix, &residual).then_some(end);
             }
             last = size;
-            z = (0..HALVINGS).find_map(|k| {
+            (z, f) = (0..HALVINGS).find_map(|k| {
                 let (t, goal) = (0.5f64.powi(k), (1.0 - 0.25 * 0.5f64.powi(k)) * size);
                 let trial = advance(&z, t, &correction);
-                let next = solve(matrix, self.residual(&trial, &self.rates(&trial), h))?;
-                (self::size(&next, &weights) <= goal || size <= STAGNATED).then_some(trial)
+                let rates = self.rates(&trial);
+                let next = solve(matrix, self.residual(&trial, &rates, h))?;
+                (self::size(&next, &weights) <= goal || size <= STAGNATED).then_some((trial, rates))
             })?;
         }
         None
@@ -133,19 +150,11 @@ impl<const N: usize, F: Fn([Dual; N]) -> [Dual; N]> Step<N, F> {
     }
 
     /// Whether the residual is small beside its own terms: a correction is also small where the rates are merely steep.
-    fn solved(&self, z: &[f64; N], matrix: &[[f64; N]; N], residual: &[f64; N]) -> bool {
+    fn balanced(&self, z: &[f64; N], matrix: &[[f64; N]; N], residual: &[f64; N]) -> bool {
         (0..N).all(|i| {
             let terms: f64 = (0..N).map(|j| (matrix[i][j] * z[j]).abs()).sum();
             residual[i].abs() <= BALANCED * (self.start[i].abs() + z[i].abs() + terms)
         })
-    }
-
-    fn with_tangent(&self, z: [f64; N]) -> Option<[Dual; N]> {
-        let f = self.rates(&z);
-        let matrix = self.matrix(&z, &f, self.dt);
-        let column = |k: usize| solve(matrix, f.map(|f| self.dt * dual::derivatives(&f).1[k]));
-        let (by_pressure, by_slip) = (column(0)?, column(1)?);
-        Some(std::array::from_fn(|i| dual::with_derivatives(z[i], [by_pressure[i], by_slip[i]])))
     }
 }
 
