@@ -104,7 +104,8 @@ STUDY = {
     "Linear elements, 76 steps": [lagrange(1), q1(0.1), q1(0.05)],
     "GetFEM, mild grading, 76 steps": [q2(size, 0.12, 0.6) for size in (0.1, 0.05, 0.025)],
     "GetFEM, strong grading, 76 steps": [q2(size, 0.5, 0.35) for size in (0.1, 0.07, 0.05, 0.035, 0.025)],
-    "Twice the steps, 152": [nurbs(3, 1.5, 152), nurbs(3, 1.6, 152, across=5), nurbs(3, 1.75, 152), q2(0.035, 0.5, 0.35, 152)],
+    "Splines, 152 steps": [nurbs(3, 1.5, 152), nurbs(3, 1.6, 152, across=5), nurbs(3, 1.75, 152)],
+    "GetFEM, strong grading, 152 steps": [q2(size, 0.5, 0.35, 152) for size in (0.05, 0.035, 0.025)],
 }
 
 

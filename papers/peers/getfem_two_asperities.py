@@ -6,8 +6,8 @@ The scene is that of `lagrange.toml` and `nurbs.toml` beside this file. Profile 
 plane strain, E = 1, nu = 0.3. The top edge of the upper body is driven by 3.8 to the right in equal steps.
 
 Contact: GetFEM's integral large-sliding brick (raytracing, both sides deformed; Poulios and Renard, Computers and
-Structures 2015), multiplier of degree 1 on the upper body, Coulomb friction with backward Euler steps. The bodies are Q1
-on uniform elements (`--degree 1`) or Q2 on graded ones (`--degree 2 --growth 0.12`).
+Structures 153, 2015), multiplier of degree 1 on the upper body, Coulomb friction with backward Euler steps. The bodies
+are Q1 (`--degree 1`) or Q2 (`--degree 2`), on uniform elements or on graded ones (`--growth 0.12`).
 
 Needs Debian's python3-getfem, hence the system python; one thread for a fair time:
 
@@ -27,8 +27,9 @@ HEIGHT, WAVELENGTH, OVERLAP = 0.4, 1.6, 0.2
 YOUNG, POISSON = 1.0, 0.3
 START, TRAVEL = -1.9, 3.8
 
-# Settings of the brick and of Newton's method; the release distance stays below the thickness of the bodies, so that
-# rays do not reach the far side, and the augmentation is that of elements of size 0.1 (E / size).
+# Settings of the brick (augmentation in E per length; rays longer than the release distance find no partner) and of
+# Newton's method. At level 1 augmentations of 1, 10, 100 take 91, 102, 430 iterations, a release distance of 0.3 takes
+# 103, and without the predictor there are 177.
 AUGMENTATION, RELEASE = 10.0, 0.1
 RESIDUAL, MAX_ITERATIONS, MAX_CUTS = 1e-8, 40, 4
 ORDERS = {1: (3, 5), 2: (5, 7)}  # of integration in the bulk and on the contact edge, by degree
@@ -60,7 +61,7 @@ def breaks(start, end, size, half, growth):
 
 
 def body(width, size, options, place):
-    """Mesh of a body; `place(x, t)` maps the position along and the depth 0..1 below the contact edge into the plane."""
+    """Mesh of a body; `place(x, t)` maps the position along and the depth 0..1 from the contact edge into the plane."""
     along = breaks(-width / 2, width / 2, size, options.half, options.growth)
     depth = breaks(0.0, 1.0, size, 0.0, options.growth)
     n = [len(along) - 1, len(depth) - 1]
