@@ -2,7 +2,7 @@
 """Runs asperity and GetFEM in turn on the two-asperity problem and prints what the same answer costs.
 
   cargo build --release
-  python3 papers/peers/compare.py                 the table, written to results.md (10 minutes)
+  python3 papers/peers/compare.py                 the table, written to results.md (7 minutes)
   python3 papers/peers/compare.py --quick         the two cheap comparisons, once each, printed only
   python3 papers/peers/compare.py --study         error against cost of many settings, once each, written to study.md
   python3 papers/peers/compare.py --reference     the converged solution, written to reference.csv
