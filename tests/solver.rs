@@ -217,8 +217,8 @@ fn a_climb_is_that_of_the_reference_solver_and_repeats_itself() {
 #[test]
 fn an_inner_loop_on_the_interface_finds_the_same_solution() {
     let setup = Pass { element: 0.1, from: -0.6, to: 0.2, steps: 16, ..Pass::default() };
-    let [monolithic, interface] =
-        [solve::Strategy::Monolithic, solve::Strategy::Interface].map(|strategy| run_by(pass(&setup), setup.steps, strategy));
+    let [monolithic, interface] = [solve::Strategy::Monolithic, solve::Strategy::Interface]
+        .map(|strategy| run_by(pass(&setup), setup.steps, strategy));
     assert_eq!(interface.outcome.status, solve::Status::Done);
     for (a, b) in monolithic.records.iter().zip(&interface.records) {
         for c in 0..2 {

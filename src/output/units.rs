@@ -97,7 +97,7 @@ impl UnitLabels {
         let unit = words.iter().map(|(text, _)| text.as_str()).collect::<Vec<_>>().join(" ");
         let name = format!("*{}*", name.replace('_', " "));
         match (dimension, words.iter().all(|(_, known)| *known)) {
-            ("1", _) => name,
+            (words, _) if words == "1" || name == format!("*{words}*") => name,
             (_, true) if words.len() == 1 => format!("{name} / {unit}"),
             _ => format!("{name} ({unit})"),
         }

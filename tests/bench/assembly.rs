@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use asperity::contact::ContactStatus;
 use asperity::laws::{FrictionLaw, InterfacePoint, dual, parse};
-use asperity::math::{LinearSolver, SparseLu};
+use asperity::math::{CondensedSolver, LinearSolver};
 use asperity::model::{Model, State, Tangent, evaluate};
 use criterion::{Criterion, criterion_group, criterion_main};
 use support::{Pass, done};
@@ -38,7 +38,7 @@ struct Bench {
     model: Model,
     start: State,
     end: State,
-    solver: SparseLu,
+    solver: CondensedSolver,
 }
 
 impl Bench {
@@ -46,7 +46,7 @@ impl Bench {
         let mut run = done(setup);
         let end = run.states.pop().expect("six steps");
         let start = run.states.pop().expect("six steps");
-        Self { model: run.model, start, end, solver: SparseLu::default() }
+        Self { model: run.model, start, end, solver: CondensedSolver::default() }
     }
 
     fn evaluate(&self, tangent: Tangent) {
@@ -120,7 +120,7 @@ fn law_shares(_: &mut Criterion) {
             model: bench.model.clone(),
             start: bench.start.clone(),
             end: bench.end.clone(),
-            solver: SparseLu::default(),
+            solver: CondensedSolver::default(),
         };
         let questions = other.questions();
         let mut new = vec![dual::constant(f64::NAN); law.variables().len()];

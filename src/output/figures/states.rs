@@ -1,7 +1,7 @@
 //! Internal variables of the law where the interface is closed: their range and pressure-weighted mean over the pass.
 
 use super::axis::range;
-use super::chart::{Band, Chart, Column, Series};
+use super::chart::{Band, Chart, Column, Key, Series};
 use super::palette::{BLUE, PALE_BLUE};
 use super::{Instant, abscissa, marks};
 use crate::model::{ContactStatus, InterfaceRow, Record};
@@ -29,13 +29,15 @@ pub fn svg(
                 y_label: units.variable(name, unit),
                 y_range,
                 height: 80.0,
-                series: vec![Series { width: 1.4, ..Series::new("mean", BLUE, mean) }],
+                series: vec![Series { width: 1.4, ..Series::new("", BLUE, mean) }],
                 bands: vec![Band { edges, colour: PALE_BLUE.into() }],
             })
         })
         .collect();
+    let label = "range and mean over the touching points".into();
+    let keys = vec![Key { label, colour: PALE_BLUE.into(), dash: "", width: 5.0 }];
     let (marks, x_range) = (marks(&x, instants), x.contact_range(records));
-    (!charts.is_empty()).then(|| Column { marks, x_range, x_label: x.label, charts, ..Column::default() }.draw())
+    (!charts.is_empty()).then(|| Column { marks, x_range, x_label: x.label, charts, keys, ..Column::default() }.draw())
 }
 
 /// A variable over the closed sites of one step.
