@@ -67,7 +67,7 @@ steps = 80
     case(&text, 20)
 }
 
-/// Two asperities with about `size` unknowns in their first steps of contact.
+/// Two asperities with about `size` unknowns in their first two steps of contact, each of the length of an element.
 pub fn two(lagrange: bool, size: usize) -> Case {
     let h = (12.6 / size as f64).sqrt();
     let count = |length: f64, h: f64| (length / h).round();
@@ -94,12 +94,13 @@ x = {{ displacement = {{ time = [0.0, 1.0], value = [0.0, 0.4] }} }}
 y = {{ displacement = 0.0 }}
 [time]
 end = 1.0
-steps = 8
+steps = {}
 "#,
         count(4.0, h),
         count(1.0, h),
         count(2.0, 0.93 * h),
         count(1.0, 0.93 * h),
+        count(0.4, h),
     );
-    case(&text, 2)
+    case(&text, (0.02 / h).ceil() as usize + 2)
 }
