@@ -2,12 +2,14 @@
 
 mod support;
 
+use std::path::Path;
 use std::sync::Arc;
 
 use asperity::math::{
-    CondensedSolver, DenseLu, DenseMatrix, LinearSolver, Pattern, SolveError, SparseLu, SparseMatrix, System,
+    CondensedSolver, Counters, DenseLu, DenseMatrix, LinearSolver, Pattern, SolveError, SparseLu, SparseMatrix, System,
 };
 use asperity::model::{Model, State};
+use asperity::scene::{self, Scene};
 use asperity::solve::{self, Status};
 use proptest::prelude::*;
 use support::{Pass, climb, pass, run_by};
@@ -46,18 +48,26 @@ impl Chains {
     }
 }
 
-/// Chains whose boundary and multipliers are coupled by random entries, none of them symmetric.
+/// Chains whose boundary and multipliers are coupled by random entries, none of them symmetric. More multipliers carry
+/// nothing: each is coupled with its neighbours only.
 fn chains() -> impl Strategy<Value = Chains> {
     (3..40_usize, 0..6_usize).prop_flat_map(|(n, multipliers)| {
+        let idle = proptest::collection::vec((-5.0..-0.5, -1.0..1.0, -1.0..1.0), 0..12);
         let boundary = proptest::sample::subsequence((0..2 * n).collect::<Vec<_>>(), 1..=n);
         let springs = proptest::collection::vec(0.1..10.0, 4 * n);
         let entry = (any::<prop::sample::Index>(), any::<prop::sample::Index>(), -3.0..3.0);
         let entries = proptest::collection::vec(entry, 0..60);
-        (boundary, springs, entries).prop_map(move |(boundary, springs, entries)| {
+        (boundary, springs, entries, idle).prop_map(move |(boundary, springs, entries, idle)| {
             let outer: Vec<usize> = boundary.iter().copied().chain(2 * n..2 * n + multipliers).collect();
             let mut coupling: Vec<_> = entries.iter().map(|(i, j, v)| (*i.get(&outer), *j.get(&outer), *v)).collect();
             coupling.extend((2 * n..2 * n + multipliers).map(|e| (e, e, -20.0)));
             coupling.push((0, 0, 1.0)); // a spring, perhaps on the interior
+            for (e, (diagonal, above, below)) in (2 * n + multipliers..).zip(&idle) {
+                coupling.push((e, e, *diagonal));
+                let before = (e > 2 * n).then(|| [(e - 1, e, *above), (e, e - 1, *below)]);
+                coupling.extend(before.into_iter().flatten());
+            }
+            let multipliers = multipliers + idle.len();
             Chains { n, springs, boundary, multipliers, coupling }
         })
     })
@@ -97,7 +107,8 @@ proptest! {
         prop_assert!(error < 1e-10 * size, "{error:e} of {size:e}");
         let counters = solver.counters();
         prop_assert_eq!((counters.factorisations, counters.indefinite, counters.coupled), (1, 0, 0));
-        prop_assert_eq!(bits(&solver.solve(&system, &right(system.n)).expect("regular")), bits(&found));
+        let again = CondensedSolver::default().solve(&system, &right(system.n)).expect("regular");
+        prop_assert_eq!(bits(&again), bits(&found));
     }
 }
 
@@ -182,6 +193,40 @@ fn an_unchanged_bulk_is_not_factored_again() {
     assert_eq!(solver.counters().factorisations, 2);
 }
 
+/// Contact of three unknowns and a multiplier that moves along a boundary of forty.
+fn walk(place: usize, idle: usize) -> Chains {
+    let bound = 80 + place % (1 + idle);
+    let on = [place, place + 1, place + 2];
+    let mut coupling: Vec<_> = on.iter().flat_map(|&i| [(i, bound, 1.0), (bound, i, -1.0), (i, on[0], 0.5)]).collect();
+    coupling.extend((80..81 + idle).map(|e| (e, e, -4.0)));
+    coupling.extend((81..81 + idle).flat_map(|e| [(e, e - 1, -1.0), (e - 1, e, -1.0)]));
+    Chains { n: 40, springs: vec![1.0; 160], boundary: (0..40).collect(), multipliers: 1 + idle, coupling }
+}
+
+#[test]
+fn the_dense_block_follows_the_contact() {
+    let systems: Vec<System> = (0..38).map(|place| walk(place, 20).system(0.5)).collect();
+    let mut solver = CondensedSolver::default();
+    systems.iter().for_each(|system| agrees(&mut solver, system));
+    let counters = solver.counters();
+    assert!(counters.analyses > 2 && counters.analyses < 38, "{counters:?}");
+    assert!(counters.dense_rows < 40, "of 40 unknowns and 21 multipliers: {counters:?}");
+    assert_eq!((counters.indefinite, counters.coupled, counters.inaccurate), (0, 0, 0));
+    let pass = || {
+        let mut solver = CondensedSolver::default();
+        systems.iter().map(|s| bits(&solver.solve(s, &right(s.n)).expect("regular"))).collect::<Vec<_>>()
+    };
+    assert_eq!(pass(), pass());
+}
+
+#[test]
+fn a_small_block_stays_as_it_is() {
+    let setup = Pass { element: 0.1, ..climb() };
+    let (model, mut solver) = (pass(&setup), CondensedSolver::default());
+    march(&model, setup.steps, &mut solver);
+    assert!(solver.counters().analyses == 1, "{:?}", solver.counters());
+}
+
 /// Forces and positions after some steps into contact.
 fn march(model: &Model, steps: usize, solver: &mut dyn LinearSolver) -> State {
     let control = solve::Control { end: 1.0, steps, max_cuts: 8, strategy: Default::default() };
@@ -193,24 +238,30 @@ fn march(model: &Model, steps: usize, solver: &mut dyn LinearSolver) -> State {
     outcome.state
 }
 
+/// Solves with both solvers, and again with the condensed one; what the latter took.
+fn compare(model: &Model, steps: usize) -> Counters {
+    let mut condensed = CondensedSolver::default();
+    let found = march(model, steps, &mut condensed);
+    let expected = march(model, steps, &mut SparseLu::default());
+    let again = march(model, steps, &mut CondensedSolver::default());
+    let size = largest(expected.u.iter().map(|u| u.amax()));
+    let error = largest(found.u.iter().zip(&expected.u).map(|(a, b)| (a - b).amax()));
+    println!("difference of the displacements {:.1e}", error / size);
+    assert!(error < 1e-10 * size, "{error:e} of {size:e}");
+    let pressures = |state: &State| state.pairs.iter().flat_map(|p| p.pressure.clone()).collect::<Vec<f64>>();
+    let size = largest(pressures(&expected).into_iter());
+    let error = largest(pressures(&found).iter().zip(pressures(&expected)).map(|(a, b)| a - b));
+    assert!(size > 0.0 && error < 1e-10 * size, "pressures: {error:e} of {size:e}");
+    assert_eq!(bits(&pressures(&found)), bits(&pressures(&again)));
+    let counters = condensed.counters();
+    assert_eq!((counters.indefinite, counters.coupled, counters.inaccurate), (0, 0, 0));
+    counters
+}
+
 #[test]
 fn a_climb_is_that_of_the_reference_solver_and_repeats_itself() {
     for setup in [climb(), Pass { lagrange: true, degree: 1, ..climb() }] {
-        let (model, mut condensed) = (pass(&setup), CondensedSolver::default());
-        let found = march(&model, setup.steps, &mut condensed);
-        let expected = march(&model, setup.steps, &mut SparseLu::default());
-        let again = march(&model, setup.steps, &mut CondensedSolver::default());
-        let size = largest(expected.u.iter().map(|u| u.amax()));
-        let error = largest(found.u.iter().zip(&expected.u).map(|(a, b)| (a - b).amax()));
-        println!("difference of the displacements {:.1e}", error / size);
-        assert!(error < 1e-10 * size, "{error:e} of {size:e}");
-        let pressures = |state: &State| state.pairs.iter().flat_map(|p| p.pressure.clone()).collect::<Vec<f64>>();
-        let size = largest(pressures(&expected).into_iter());
-        let error = largest(pressures(&found).iter().zip(pressures(&expected)).map(|(a, b)| a - b));
-        assert!(error < 1e-10 * size, "pressures: {error:e} of {size:e}");
-        assert_eq!(bits(&pressures(&found)), bits(&pressures(&again)));
-        let counters = condensed.counters();
-        assert_eq!((counters.indefinite, counters.coupled, counters.inaccurate), (0, 0, 0));
+        compare(&pass(&setup), setup.steps);
     }
 }
 
@@ -227,4 +278,14 @@ fn an_inner_loop_on_the_interface_finds_the_same_solution() {
     }
     println!("linear solves with a new bulk: {} and {}", monolithic.outcome.iterations, interface.outcome.iterations);
     assert!(interface.outcome.iterations < monolithic.outcome.iterations);
+}
+
+#[test]
+fn several_contacts_are_those_of_the_reference_solver() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/multi_asperity.toml");
+    let (scene, _) = Scene::load(&file, &[]).expect("an example");
+    let model = scene::build(&scene, Path::new(".")).expect("an example");
+    let counters = compare(&model, 10);
+    assert!(counters.analyses > 1, "{counters:?}");
+    assert!(counters.dense_rows < model.boundary.len(), "{counters:?}");
 }

@@ -1,6 +1,8 @@
 //! The stiffness of the bodies condensed on the unknowns that can come into contact.
 
 mod analysis;
+mod extent;
+mod idle;
 mod part;
 mod solver;
 
@@ -66,6 +68,11 @@ impl Condensed {
     pub fn fits(&self, pattern: &Arc<Pattern>, boundary: &Arc<[usize]>) -> bool {
         (Arc::ptr_eq(&self.pattern, pattern) || self.pattern == *pattern)
             && (Arc::ptr_eq(&self.boundary, boundary) || self.boundary == *boundary)
+    }
+
+    /// Operations of a factorisation of the interior (sum of the squares of the column lengths).
+    pub fn operations(&self) -> f64 {
+        self.parts.iter().map(Part::operations).sum()
     }
 
     /// Unknown of the bulk behind each row of `S`.

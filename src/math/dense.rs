@@ -58,6 +58,9 @@ impl DenseLu {
     pub fn factor(&mut self, matrix: &DenseMatrix) {
         self.resize(matrix.n);
         self.values.copy_from_slice(&matrix.values);
+        if self.n == 0 {
+            return;
+        }
         let lu = MatMut::from_column_major_slice_mut(&mut self.values, self.n, self.n);
         let memory = MemStack::new(&mut self.memory);
         lu_in_place(lu, &mut self.rows, &mut self.inverse, Par::Seq, memory, Default::default());
@@ -77,6 +80,9 @@ impl DenseLu {
 
     /// Replaces a right-hand side by the solution.
     pub fn solve(&mut self, x: &mut [f64]) {
+        if self.n == 0 {
+            return;
+        }
         let lu = MatRef::from_column_major_slice(&self.values, self.n, self.n);
         let rows = PermRef::new_checked(&self.rows, &self.inverse, self.n);
         let x = MatMut::from_column_major_slice_mut(x, self.n, 1);

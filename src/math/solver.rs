@@ -22,6 +22,10 @@ pub enum SolveError {
 /// What the solutions so far took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
+    /// Symbolic analyses for the condensed solver: one per mesh, and one for each new choice of what is kept in the dense block.
+    pub analyses: usize,
+    /// Rows of the largest dense block that it factored.
+    pub dense_rows: usize,
     /// Factorisations of the bulk stiffness, alone or as part of the whole matrix.
     pub factorisations: usize,
     /// Solutions by the sparse LU of the whole because the stiffness inside a body was not positive definite.

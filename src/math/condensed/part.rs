@@ -45,7 +45,7 @@ impl Part {
     /// Analyses a part; `unknowns` from `interior` on are its boundary.
     pub fn new(bulk: &Pattern, unknowns: Vec<usize>, interior: usize) -> Result<Self, SolveError> {
         let analysis = Analysis::new(bulk, unknowns, interior)?;
-        let (n, boundary) = (analysis.unknowns.len(), analysis.boundary());
+        let n = analysis.unknowns.len();
         let scratch =
             factorize_supernodal_numeric_llt_scratch::<usize, f64>(&analysis.symbolic, Par::Seq, Default::default());
         Ok(Self {
@@ -53,8 +53,8 @@ impl Part {
             work: vec![0.0; analysis.source.len()],
             factor: vec![0.0; analysis.symbolic.len_val()],
             factored: false,
-            condensed: Mat::zeros(boundary, boundary),
-            trailing: Mat::zeros(boundary, boundary),
+            condensed: Mat::new(),
+            trailing: Mat::new(),
             local: vec![0.0; n],
             below: vec![0.0; n],
             memory: MemBuffer::new(scratch),
@@ -70,6 +70,17 @@ impl Part {
     /// The last of [`Self::unknowns`].
     pub fn boundary(&self) -> &[usize] {
         &self.analysis.unknowns[self.analysis.interior..]
+    }
+
+    /// Operations of the Cholesky factorisation of the interior: the squares of its column lengths.
+    pub fn operations(&self) -> f64 {
+        let Analysis { interior, symbolic, .. } = &self.analysis;
+        let nodes = symbolic.supernode_begin().iter().zip(symbolic.supernode_end()).enumerate();
+        let columns = nodes.flat_map(|(s, (&start, &end))| {
+            let below = symbolic.supernode(s).pattern().len();
+            (start..end.min(*interior)).map(move |j| (end - j + below) as f64)
+        });
+        columns.map(|length| length * length).sum()
     }
 
     /// Takes the values of the bulk and springs `(place in the part, stiffness)`; factors unless nothing has changed since
@@ -116,6 +127,9 @@ impl Part {
     fn condense(&mut self) {
         let Analysis { interior, lower, symbolic, .. } = &self.analysis;
         let llt = SupernodalLltRef::new(symbolic, &self.factor);
+        let n = self.analysis.boundary();
+        self.condensed.resize_with(n, n, |_, _| 0.0);
+        self.trailing.resize_with(n, n, |_, _| 0.0);
         self.trailing.fill(0.0);
         for s in (0..symbolic.n_supernodes()).rev() {
             let node = llt.supernode(s);

@@ -1,0 +1,99 @@
+//! How many of the possible contact unknowns are kept out of the interior.
+
+use std::sync::Arc;
+
+use crate::math::{Pattern, System};
+
+/// Chooses the boundary of the condensation. All unknowns that may come into contact are the boundary where the dense LU
+/// is then no dearer than the Cholesky factorisation of the interior; else those that are in contact now and a margin of
+/// their neighbours along the curves, so that the choice lasts. Costs are counted in operations, an analysis as one
+/// factorisation.
+pub(super) struct Extent {
+    pattern: Arc<Pattern>,
+    /// Unknowns that may come into contact, along the curves.
+    possible: Arc<[usize]>,
+    /// Place of each unknown in `possible`.
+    places: Vec<Option<usize>>,
+    /// Whether all of them are kept for good.
+    whole: bool,
+    kept: Vec<bool>,
+    touched: Vec<bool>,
+    /// Neighbours kept on either side of an unknown in contact.
+    margin: usize,
+    /// Operations that the margin has cost since the last choice.
+    spent: f64,
+    /// Operations that a fresh choice with the same margin would have saved since then; infinite before the first choice.
+    waste: f64,
+}
+
+impl Extent {
+    /// For the pattern and the possible contact unknowns of a system, analysed with all of them kept. `interior` counts the
+    /// operations of the factorisation then.
+    pub fn new(system: &System, interior: f64) -> Self {
+        let (pattern, possible) = (system.bulk.pattern.clone(), system.boundary.clone());
+        let mut places = vec![None; pattern.n];
+        possible.iter().enumerate().for_each(|(k, &e)| places[e] = Some(k));
+        let n = possible.len();
+        let whole = dense_lu(n + system.n - pattern.n) <= interior;
+        let (kept, touched) = (vec![true; n], vec![false; n]);
+        Self { pattern, possible, places, whole, kept, touched, margin: 1, spent: 0.0, waste: f64::INFINITY }
+    }
+
+    /// Whether it was made for the pattern and the possible contact unknowns of a system.
+    pub fn fits(&self, system: &System) -> bool {
+        let (pattern, boundary) = (&system.bulk.pattern, &system.boundary);
+        (Arc::ptr_eq(&self.pattern, pattern) || self.pattern == *pattern)
+            && (Arc::ptr_eq(&self.possible, boundary) || self.possible == *boundary)
+    }
+
+    /// A new boundary, where the present one does not cover the contact of the system or has become too large. `multipliers`
+    /// counts those in the dense block, `factorisation` the operations of the interior.
+    pub fn revise(&mut self, system: &System, multipliers: usize, factorisation: f64) -> Option<Arc<[usize]>> {
+        if self.whole {
+            return None;
+        }
+        self.touch(system);
+        let cost = |kept: &[bool]| dense_lu(kept.iter().filter(|k| **k).count() + multipliers);
+        let mut fresh = self.widened();
+        if self.touched.iter().zip(&self.kept).all(|(touched, kept)| kept | !touched) {
+            self.waste += (cost(&self.kept) - cost(&fresh)).max(0.0);
+            if self.waste <= factorisation {
+                self.spent += cost(&fresh) - cost(&self.touched);
+                return None;
+            }
+        } else {
+            // the best margin costs as much as the analyses that it saves
+            self.margin = if self.spent < factorisation { 2 * self.margin } else { self.margin.div_ceil(2) };
+            fresh = self.widened();
+        }
+        (self.spent, self.waste) = (0.0, 0.0);
+        self.kept = fresh;
+        Some(self.possible.iter().zip(&self.kept).filter(|(_, kept)| **kept).map(|(&e, _)| e).collect())
+    }
+
+    /// Marks the unknowns that the interface couples with others.
+    fn touch(&mut self, system: &System) {
+        self.touched.fill(false);
+        for &(i, j, _) in system.interface.iter().filter(|(i, j, v)| i != j && *v != 0.0) {
+            for e in [i, j] {
+                if let Some(place) = self.places.get(e).copied().flatten() {
+                    self.touched[place] = true;
+                }
+            }
+        }
+    }
+
+    /// The unknowns in contact with the margin.
+    fn widened(&self) -> Vec<bool> {
+        let (n, mut wide) = (self.touched.len(), self.touched.clone());
+        for k in (0..n).filter(|&k| self.touched[k]) {
+            wide[k.saturating_sub(self.margin)..n.min(k.saturating_add(self.margin + 1))].fill(true);
+        }
+        wide
+    }
+}
+
+/// Operations of a dense LU.
+fn dense_lu(n: usize) -> f64 {
+    2.0 / 3.0 * (n as f64).powi(3)
+}
