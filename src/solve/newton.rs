@@ -15,6 +15,8 @@ const RELATIVE: f64 = 1e-9;
 /// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
 const ROUND_OFF: f64 = 1e-14;
 
+/// Iterations without a residual below half of the best before, after which the next guess is tried.
+const PATIENCE: usize = 5;
 /// Growth of the residual that a full step may show.
 const GROWTH: f64 = 1.0 + 1e-6;
 /// Lengths tried when a full step is no good: 1, 1/2, 1/4, ...
@@ -151,7 +153,7 @@ impl Step<'_> {
             {
                 return Err(StepFailure::Law(why));
             }
-            if iteration == way.most() || size.is_nan() {
+            if iteration == way.most() || size.is_nan() || (!way.lags() && stalled(&residuals)) {
                 let residual = size / evaluation.force_scale;
                 let hint = hint(model, &evaluation) + &self.weakening_hint(&trial, &way);
                 return Err(StepFailure::Iterations { iterations: iteration, residual, hint });
@@ -241,6 +243,13 @@ impl Step<'_> {
             None => String::new(),
         }
     }
+}
+
+/// True where the best residual is [`PATIENCE`] iterations old: the active set cycles.
+fn stalled(residuals: &[f64]) -> bool {
+    let (old, new) = residuals.split_at(residuals.len().saturating_sub(PATIENCE));
+    let best = |part: &[f64]| part.iter().fold(f64::INFINITY, |m, v| m.min(*v));
+    !old.is_empty() && best(new) > 0.5 * best(old)
 }
 
 /// True where the residual is as small as is asked for.
