@@ -2,13 +2,13 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial::{
     prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch,
 };
 use faer::sparse::linalg::cholesky::supernodal::{
     SymbolicSupernodalCholesky, factorize_supernodal_symbolic_cholesky, factorize_supernodal_symbolic_cholesky_scratch,
 };
+use faer::sparse::linalg::{amd, qr};
 
 use crate::math::{Pattern, SolveError};
 
@@ -30,10 +30,12 @@ pub(super) struct Analysis {
 impl Analysis {
     /// Analyses the part of `bulk` on the given unknowns; the last ones, from `interior` on, are its boundary.
     pub fn new(bulk: &Pattern, mut unknowns: Vec<usize>, interior: usize) -> Result<Self, SolveError> {
+        let (graph, _) = lower_triangle(bulk, &unknowns);
+        let mut order = minimum_degree(&with_clique(graph, interior))?;
+        order.retain(|k| *k < interior);
+        reorder(&mut unknowns, &order);
         let (graph, _) = lower_triangle(bulk, &unknowns[..interior]);
-        let order = minimum_degree(&graph)?;
-        let ordered: Vec<usize> = order.iter().map(|&k| unknowns[k]).collect();
-        unknowns[..interior].copy_from_slice(&ordered);
+        reorder(&mut unknowns, &postorder(&transposed(&graph)));
         let (lower, source) = lower_triangle(bulk, &unknowns);
         let symbolic = structure(&transposed(&lower))?;
         Ok(Self { unknowns, interior, lower, source, symbolic })
@@ -86,14 +88,47 @@ pub(in crate::math) fn view(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, us
     SymbolicSparseColMatRef::new_checked(pattern.n, pattern.n, &pattern.columns, None, &pattern.rows)
 }
 
+/// Replaces the first unknowns by those at the given places.
+fn reorder(unknowns: &mut [usize], order: &[usize]) {
+    let ordered: Vec<usize> = order.iter().map(|&k| unknowns[k]).collect();
+    unknowns[..order.len()].copy_from_slice(&ordered);
+}
+
+/// Couples all unknowns from `interior` on with one another, as the elimination of the others will do.
+fn with_clique(mut lower: Pattern, interior: usize) -> Pattern {
+    lower.rows.truncate(lower.columns[interior]);
+    lower.columns.truncate(interior + 1);
+    for j in interior..lower.n {
+        lower.rows.extend(j..lower.n);
+        lower.columns.push(lower.rows.len());
+    }
+    lower
+}
+
 /// Order of elimination with little fill-in (approximate minimum degree; Amestoy, Davis, Duff, SIAM J. Matrix Anal. Appl. 17
-/// (1996) 886), postordered: the k-th to be eliminated is `order[k]`.
+/// (1996) 886): the k-th to be eliminated is `order[k]`. With the boundary as a clique its unknowns have the largest
+/// degrees and come last, and the degrees of the interior count those that an unknown is coupled with: contacts far from one
+/// another are brought together late.
 fn minimum_degree(graph: &Pattern) -> Result<Vec<usize>, SolveError> {
     let (mut order, mut inverse) = (vec![0; graph.n], vec![0; graph.n]);
     let mut memory = MemBuffer::new(amd::order_scratch::<usize>(graph.n, graph.rows.len()));
-    amd::order(&mut order, &mut inverse, view(graph), amd::Control::default(), MemStack::new(&mut memory))
+    let control = amd::Control { dense: -1.0, ..Default::default() }; // no unknown is set aside for its degree
+    amd::order(&mut order, &mut inverse, view(graph), control, MemStack::new(&mut memory))
         .map_err(|error| SolveError::TooLarge(error.to_string()))?;
     Ok(order)
+}
+
+/// An order with the same fill-in in which every subtree of the elimination tree is contiguous.
+fn postorder(upper: &Pattern) -> Vec<usize> {
+    let n = upper.n;
+    let scratch =
+        prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.rows.len()).or(qr::postorder_scratch::<usize>(n));
+    let mut memory = MemBuffer::new(scratch);
+    let stack = MemStack::new(&mut memory);
+    let (mut tree, mut counts, mut order) = (vec![0; n], vec![0; n], vec![0; n]);
+    let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, view(upper), stack);
+    qr::postorder(&mut order, tree, stack);
+    order
 }
 
 /// Structure of the factor of a matrix whose upper triangle is given.

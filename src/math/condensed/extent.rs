@@ -20,8 +20,8 @@ pub(super) struct Extent {
     touched: Vec<bool>,
     /// Neighbours kept on either side of an unknown in contact.
     margin: usize,
-    /// Operations that the margin has cost since the last choice.
-    spent: f64,
+    /// Solutions since the last choice.
+    lasted: f64,
     /// Operations that a fresh choice with the same margin would have saved since then; infinite before the first choice.
     waste: f64,
 }
@@ -36,7 +36,7 @@ impl Extent {
         let n = possible.len();
         let whole = dense_lu(n + system.n - pattern.n) <= interior;
         let (kept, touched) = (vec![true; n], vec![false; n]);
-        Self { pattern, possible, places, whole, kept, touched, margin: 1, spent: 0.0, waste: f64::INFINITY }
+        Self { pattern, possible, places, whole, kept, touched, margin: 1, lasted: 0.0, waste: f64::INFINITY }
     }
 
     /// Whether it was made for the pattern and the possible contact unknowns of a system.
@@ -54,19 +54,23 @@ impl Extent {
         }
         self.touch(system);
         let cost = |kept: &[bool]| dense_lu(kept.iter().filter(|k| **k).count() + multipliers);
-        let mut fresh = self.widened();
         if self.touched.iter().zip(&self.kept).all(|(touched, kept)| kept | !touched) {
-            self.waste += (cost(&self.kept) - cost(&fresh)).max(0.0);
+            self.waste += (cost(&self.kept) - cost(&self.widened(self.margin))).max(0.0);
+            self.lasted += 1.0;
             if self.waste <= factorisation {
-                self.spent += cost(&fresh) - cost(&self.touched);
                 return None;
             }
         } else {
-            // the best margin costs as much as the analyses that it saves
-            self.margin = if self.spent < factorisation { 2 * self.margin } else { self.margin.div_ceil(2) };
-            fresh = self.widened();
+            // the best margin costs as much as the analysis that it puts off
+            let spent = |margin| self.lasted * (cost(&self.widened(margin)) - cost(&self.touched));
+            if spent(2 * self.margin) <= factorisation {
+                self.margin = (2 * self.margin).min(self.touched.len());
+            } else if spent(self.margin) > factorisation {
+                self.margin = self.margin.div_ceil(2);
+            }
         }
-        (self.spent, self.waste) = (0.0, 0.0);
+        let fresh = self.widened(self.margin);
+        (self.lasted, self.waste) = (1.0, 0.0);
         self.kept = fresh;
         Some(self.possible.iter().zip(&self.kept).filter(|(_, kept)| **kept).map(|(&e, _)| e).collect())
     }
@@ -83,11 +87,11 @@ impl Extent {
         }
     }
 
-    /// The unknowns in contact with the margin.
-    fn widened(&self) -> Vec<bool> {
+    /// The unknowns in contact with a margin.
+    fn widened(&self, margin: usize) -> Vec<bool> {
         let (n, mut wide) = (self.touched.len(), self.touched.clone());
         for k in (0..n).filter(|&k| self.touched[k]) {
-            wide[k.saturating_sub(self.margin)..n.min(k.saturating_add(self.margin + 1))].fill(true);
+            wide[k.saturating_sub(margin)..n.min(k + margin + 1)].fill(true);
         }
         wide
     }
