@@ -71,8 +71,8 @@ impl SparseMatrix {
         // Row by row the upper half is the lower one column by column; each column of it is full when its diagonal comes.
         let mut next = columns.clone();
         for j in 0..*n {
-            for k in next[j] + 1..columns[j + 1] {
-                let i = rows[k];
+            let below = next[j] + 1..columns[j + 1];
+            for (k, &i) in below.clone().zip(&rows[below]) {
                 self.values[next[i]] = self.values[k];
                 next[i] += 1;
             }
