@@ -64,17 +64,6 @@ impl Condensed {
         Ok(Self { pattern, boundary, parts, slots, homes, rows })
     }
 
-    /// Whether this analysis is that of a pattern and a boundary.
-    pub fn fits(&self, pattern: &Arc<Pattern>, boundary: &Arc<[usize]>) -> bool {
-        (Arc::ptr_eq(&self.pattern, pattern) || self.pattern == *pattern)
-            && (Arc::ptr_eq(&self.boundary, boundary) || self.boundary == *boundary)
-    }
-
-    /// Operations of a factorisation of the interior (sum of the squares of the column lengths).
-    pub fn operations(&self) -> f64 {
-        self.parts.iter().map(Part::operations).sum()
-    }
-
     /// Unknown of the bulk behind each row of `S`.
     pub fn boundary(&self) -> &[usize] {
         &self.boundary
