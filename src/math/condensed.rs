@@ -33,7 +33,6 @@ pub use solver::CondensedSolver;
 /// Parts of the bulk that do not touch one another (the bodies) are factored each by itself, and not at all while their
 /// values stay bit for bit the same: a body of linear material is condensed once per analysis.
 pub struct Condensed {
-    pattern: Arc<Pattern>,
     boundary: Arc<[usize]>,
     parts: Vec<Part>,
     /// For each part, where its boundary unknowns stand in `boundary`.
@@ -61,7 +60,12 @@ impl Condensed {
             slots.push(part.boundary().iter().filter_map(|&e| rows[e]).collect());
             parts.push(part);
         }
-        Ok(Self { pattern, boundary, parts, slots, homes, rows })
+        Ok(Self { boundary, parts, slots, homes, rows })
+    }
+
+    /// Operations of a factorisation of the interior (sum of the squares of the column lengths).
+    pub fn operations(&self) -> f64 {
+        self.parts.iter().map(Part::operations).sum()
     }
 
     /// Unknown of the bulk behind each row of `S`.
