@@ -75,10 +75,11 @@ impl Extent {
         Some(self.possible.iter().zip(&self.kept).filter(|(_, kept)| **kept).map(|(&e, _)| e).collect())
     }
 
-    /// Marks the unknowns that the interface couples with others.
+    /// Marks the unknowns that the interface couples with others, and those on which it puts a negative spring, which could make
+    /// an interior indefinite.
     fn touch(&mut self, system: &System) {
         self.touched.fill(false);
-        for &(i, j, _) in system.interface.iter().filter(|(i, j, v)| i != j && *v != 0.0) {
+        for &(i, j, _) in system.interface.iter().filter(|(i, j, v)| if i == j { *v < 0.0 } else { *v != 0.0 }) {
             for e in [i, j] {
                 if let Some(place) = self.places.get(e).copied().flatten() {
                     self.touched[place] = true;
