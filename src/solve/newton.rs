@@ -78,7 +78,8 @@ pub struct NewtonReport {
     pub weakening: f64,
 }
 
-/// Solves the step from `start` to `time`, from the best of the guesses and, where Newton fails, from the next.
+/// Solves the step from `start` to `time`, from the best of the guesses and, where Newton fails, from the next; where all
+/// fail, from each once more with contact settled in an inner loop, which costs more but cycles less.
 /// A law that weakens with the slip rate has a second way, see [`Linearisation`]: it is taken where the exact tangent
 /// fails, and where it ends in an unstable equilibrium. `iterations` counts the linear solves, failed attempts included.
 ///
@@ -95,14 +96,20 @@ pub fn solve_step(
 ) -> Result<NewtonReport, StepFailure> {
     let mut step = Step { model, start, strategy, solver, interrupt, iterations, weakens: false };
     let mut failure = None;
-    for (guess, forces) in guesses(model, start, time, |found| balanced(model, found)) {
-        if balanced(model, &forces) {
-            return Ok(step.converged(guess, forces, vec![]));
-        }
-        match step.attempt(guess) {
-            Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
-            Err(error) => failure = failure.or(Some(error)),
-            done => return done,
+    let mut guesses = guesses(model, start, time, |found| balanced(model, found));
+    if guesses.first().is_some_and(|(_, forces)| balanced(model, forces)) {
+        let (guess, forces) = guesses.swap_remove(0);
+        return Ok(step.converged(guess, forces, vec![]));
+    }
+    let again = (strategy == Strategy::Monolithic).then_some(Strategy::Interface);
+    for strategy in [strategy].into_iter().chain(again) {
+        step.strategy = strategy;
+        for (guess, _) in &guesses {
+            match step.attempt(guess.clone()) {
+                Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
+                Err(error) => failure = failure.or(Some(error)),
+                done => return done,
+            }
         }
     }
     Err(failure.unwrap_or(StepFailure::Inverted(0)))
