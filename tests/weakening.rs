@@ -8,34 +8,17 @@ use std::sync::Arc;
 use asperity::bulk::LinearElastic;
 use asperity::geometry::shapes::Block;
 use asperity::geometry::{BasisSpec, Edge, Profile, ShapeSpec, build};
-use asperity::laws::*;
+use asperity::laws::builtin::Stribeck;
 use asperity::math::SparseLu;
 use asperity::model::{BodySpec, Builder, Control, Model, PairSpec, State, Table};
 use asperity::solve::{Strategy, solve_step, weakening};
 use asperity::verify::{Audit, Expectations};
-use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 use support::{Pass, pass, run};
 
-/// `|q| <= [kinetic + (rest - kinetic) exp(-|v|/speed)] p`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Falling {
-    rest: f64,
-    kinetic: f64,
-    speed: f64,
-}
-
-#[typetag::serde(name = "test-falling")]
-impl FrictionLaw for Falling {
-    fn response(&self, at: &InterfacePoint, _: &[f64], _: &mut [Dual]) -> Response {
-        let decay = (-at.speed() / self.speed).exp();
-        Response::Threshold(at.pressure * (decay * (self.rest - self.kinetic) + self.kinetic))
-    }
-}
-
-fn falling(speed: f64) -> Falling {
-    Falling { rest: 0.3, kinetic: 0.1, speed }
+/// `|q| <= [0.1 + 0.2 exp(-|v|/speed)] p`.
+fn falling(speed: f64) -> Stribeck {
+    Stribeck { static_friction: 0.3, kinetic_friction: 0.1, speed, exponent: 1.0, viscous: 0.0 }
 }
 
 #[test]
@@ -63,7 +46,7 @@ fn two_asperities_pass_under_laws_that_weaken() {
 }
 
 /// A layer of linear material with nu = 0, pressed on a rigid floor by `pressure` and dragged by its top in one step.
-fn dragged(law: Falling, height: f64, pressure: f64, drag: f64) -> Model {
+fn dragged(law: Stribeck, height: f64, pressure: f64, drag: f64) -> Model {
     let block = |x, y, elements| {
         let shape = ShapeSpec::Block(Block { x, y, top: Profile::default(), bottom: Profile::default() });
         build(&shape, &BasisSpec::Lagrange { degree: 1 }, elements, None, [0.0; 2], Path::new(".")).expect("a block")
@@ -88,7 +71,7 @@ fn the_share_of_the_stiffness_is_that_of_a_sheared_layer() {
     // a layer of height H resists uniform slip by G/H; the law takes p |dmu/dv| / dt of it
     let (pressure, drag) = (1e-3, 1.0);
     let error = |height: f64| {
-        let law = Falling { rest: 0.3, kinetic: 0.1, speed: 1.0 };
+        let law = falling(1.0);
         let slope = 0.2 / law.speed * (-drag / law.speed).exp();
         let expected = pressure * slope / (0.5 / height);
         let model = dragged(law, height, pressure, drag);

@@ -1,5 +1,6 @@
 //! A mass on a spring over a rough surface against its closed forms: stick-slip on a belt, and free vibration until rest.
 
+use asperity_laws::builtin::Stribeck;
 use asperity_laws::drive::{History, Record, Slider};
 use asperity_laws::*;
 use serde::{Deserialize, Serialize};
@@ -20,19 +21,8 @@ impl FrictionLaw for Jump {
 }
 
 /// The same with a decay speed.
-#[derive(Debug, Serialize, Deserialize)]
-struct Falling {
-    rest: f64,
-    kinetic: f64,
-    speed: f64,
-}
-
-#[typetag::serde(name = "test-falling")]
-impl FrictionLaw for Falling {
-    fn response(&self, at: &InterfacePoint, _: &[f64], _: &mut [Dual]) -> Response {
-        let decay = (-at.speed() / self.speed).exp();
-        Response::Threshold(at.pressure * (decay * (self.rest - self.kinetic) + self.kinetic))
-    }
+fn falling(speed: f64) -> Stribeck {
+    Stribeck { static_friction: 0.6, kinetic_friction: 0.4, speed, exponent: 1.0, viscous: 0.0 }
 }
 
 const JUMP: Jump = Jump { rest: 0.6, kinetic: 0.4 };
@@ -89,7 +79,7 @@ fn the_belt_with_a_jump_is_met_with_second_order() {
 /// A fast decay is a jump in the limit; the slip begins late by a time of the order `speed ln(1/speed)`.
 #[test]
 fn the_belt_with_a_decay_speed_tends_to_the_jump() {
-    let [slow, fast] = [1e-3, 1e-5].map(|speed| errors(&Falling { rest: 0.6, kinetic: 0.4, speed }, 400_000));
+    let [slow, fast] = [1e-3, 1e-5].map(|speed| errors(&falling(speed), 400_000));
     for (slow, fast) in slow.into_iter().zip(fast) {
         assert!(fast < slow / 30.0, "{slow:e} at a decay speed of 1e-3, {fast:e} at 1e-5");
     }

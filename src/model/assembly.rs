@@ -4,7 +4,7 @@ use crate::contact::{
     Configuration, ContactDiscretization, ContactStatus, InterfaceForces, InterfaceStart, InterfaceTrial, Tangent,
 };
 use crate::geometry::Point;
-use crate::math::{SparseMatrix, System, Triplets};
+use crate::math::{SparseMatrix, System, Triplets, norm};
 
 use super::body::BodyKind;
 use super::motion::Control;
@@ -29,7 +29,7 @@ pub struct Evaluation {
 impl Evaluation {
     /// Euclidean norm of the residual.
     pub fn norm(&self) -> f64 {
-        self.residual.iter().map(|v| v * v).sum::<f64>().sqrt()
+        norm(&self.residual)
     }
 
     /// The pairs in which a body takes part.

@@ -1,7 +1,7 @@
 //! The interface moves, the bodies answer with the stiffness of one iterate.
 
-use crate::contact::{InterfaceForces, Tangent};
-use crate::math::System;
+use crate::contact::Tangent;
+use crate::math::{System, norm};
 
 use super::assembly::{add_interface, interface_entries, interfaces};
 use super::{Evaluation, Model, State};
@@ -21,13 +21,11 @@ pub struct Linearised<'a> {
     /// `x - x0`.
     moved: Vec<f64>,
     /// `x`.
-    pub trial: State,
+    trial: State,
     /// `R(x)`.
     pub residual: Vec<f64>,
     /// Its tangent, `K` of `x0` included.
     pub system: System,
-    /// Contact at `x`.
-    pub interfaces: Vec<InterfaceForces>,
 }
 
 impl<'a> Linearised<'a> {
@@ -37,23 +35,23 @@ impl<'a> Linearised<'a> {
         add_interface(model, &found.interfaces, &mut interface);
         let base = found.residual.iter().zip(&interface).map(|(all, part)| all - part).collect();
         let (moved, residual) = (vec![0.0; model.unknowns()], found.residual.clone());
-        Self { model, start, base, moved, trial, residual, system, interfaces: Vec::new() }
+        Self { model, start, base, moved, trial, residual, system }
     }
 
     /// Moves by an increment of the unknowns and evaluates.
-    pub fn advance(&mut self, increment: &[f64], tangent: Tangent) {
+    pub fn advance(&mut self, increment: &[f64]) {
         self.trial.advance(self.model, increment, 1.0);
         self.moved.iter_mut().zip(increment).for_each(|(x, d)| *x += d);
-        self.interfaces = interfaces(self.model, self.start, &self.trial, tangent);
+        let found = interfaces(self.model, self.start, &self.trial, Tangent::Exact);
         self.residual.copy_from_slice(&self.base);
         self.system.bulk.add_product(&self.moved[..self.system.bulk.pattern.n], &mut self.residual);
-        add_interface(self.model, &self.interfaces, &mut self.residual);
-        self.system.interface = interface_entries(self.model, &self.interfaces);
+        add_interface(self.model, &found, &mut self.residual);
+        self.system.interface = interface_entries(self.model, &found);
     }
 
     /// Euclidean norm of the residual.
     pub fn norm(&self) -> f64 {
-        self.residual.iter().map(|v| v * v).sum::<f64>().sqrt()
+        norm(&self.residual)
     }
 
     /// `x - x0`.

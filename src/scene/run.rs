@@ -79,7 +79,7 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "time_reached": outcome.state.time,
         "counters": {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
-            "newton_iterations": outcome.iterations, "factorisations": outcome.factorisations,
+            "newton_iterations": outcome.iterations, "factorisations": solver.factorisations,
             "lagged_steps": outcome.lagged, "analyses": solver.analyses, "dense_rows": solver.dense_rows,
         },
         "sparse_lu_instead": {

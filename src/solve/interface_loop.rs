@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::math::LinearSolver;
-use crate::model::{Evaluation, Linearised, Tangent};
+use crate::model::{Evaluation, Linearised};
 
 /// Inner iterations at most.
 const MOST: usize = 10;
@@ -35,14 +35,14 @@ pub fn settle(
 ) -> Vec<f64> {
     let size = outer.norm();
     let goal = size * f64::min(LOOSE, size / outer.force_scale);
-    bodies.advance(&increment, Tangent::Exact);
+    bodies.advance(&increment);
     let mut before = bodies.norm();
     for _ in 0..MOST {
         if before <= goal {
             return bodies.moved().to_vec();
         }
         let Ok(more) = solver.solve(&bodies.system, &negative(&bodies.residual)) else { break };
-        bodies.advance(&more, Tangent::Exact);
+        bodies.advance(&more);
         let now = bodies.norm();
         if now > goal && (now.is_nan() || now > STALLED * before) {
             break;

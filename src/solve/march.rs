@@ -86,7 +86,7 @@ pub fn march<E>(
             }
         }
     }
-    Ok(Outcome { factorisations: march.solver.factorisations(), ..march.outcome })
+    Ok(march.outcome)
 }
 
 /// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`.

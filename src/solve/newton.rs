@@ -207,13 +207,13 @@ impl Step<'_> {
         };
         let evaluate = |trial: &State, tangent| evaluate(self.model, self.start, trial, tangent);
         let full = moved(1.0);
-        if let Some(evaluation) = evaluate(&full, tangent)
-            && (tangent == Tangent::Lagged || evaluation.norm() <= GROWTH * before)
-        {
-            return Some((full, evaluation));
+        let found = evaluate(&full, tangent);
+        let mut best = found.as_ref().map(|found| (found.norm(), 1.0));
+        let accepted = |size: f64| tangent == Tangent::Lagged || size <= GROWTH * before;
+        if best.is_some_and(|(size, _)| accepted(size)) {
+            return Some((full, found?));
         }
-        let mut best: Option<(f64, f64)> = None;
-        for k in 0..HALVINGS {
+        for k in 1..HALVINGS {
             let factor = 0.5_f64.powi(k);
             if let Some(size) = evaluate(&moved(factor), Tangent::None).as_ref().map(Evaluation::norm) {
                 if best.is_none_or(|(smallest, _)| size < smallest) {
@@ -224,7 +224,11 @@ impl Step<'_> {
                 }
             }
         }
-        let next = moved(best?.1);
+        let factor = best?.1;
+        if factor == 1.0 {
+            return Some((full, found?));
+        }
+        let next = moved(factor);
         evaluate(&next, tangent).map(|evaluation| (next, evaluation))
     }
 

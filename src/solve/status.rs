@@ -34,8 +34,6 @@ pub struct Outcome {
     pub steps: usize,
     /// Steps thrown away.
     pub cuts: usize,
-    /// Numeric factorisations.
-    pub factorisations: usize,
     /// Steps that only a lagged bound reached: friction falls with the slip rate, see [`super::weakening`].
     pub lagged: usize,
 }
@@ -43,6 +41,6 @@ pub struct Outcome {
 impl Outcome {
     /// Nothing done yet.
     pub fn at(state: State) -> Self {
-        Self { status: Status::Done, state, iterations: 0, steps: 0, cuts: 0, factorisations: 0, lagged: 0 }
+        Self { status: Status::Done, state, iterations: 0, steps: 0, cuts: 0, lagged: 0 }
     }
 }

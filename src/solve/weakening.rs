@@ -11,7 +11,7 @@
 //! so `K` becomes singular when the largest eigenvalue of `M` reaches 1. `M` is also what multiplies the error of an
 //! iteration with lagged bound, which therefore finds stable solutions only.
 
-use crate::math::{LinearSolver, System};
+use crate::math::{LinearSolver, System, norm};
 use crate::model::{Evaluation, Model, State, Tangent, evaluate};
 
 use super::floating::support_floating;
@@ -112,8 +112,4 @@ fn difference(a: &System, b: &System, v: &[f64]) -> Vec<f64> {
         entries.iter().for_each(|&(i, j, value)| product[i] += sign * value * v[j]);
     }
     product
-}
-
-fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
