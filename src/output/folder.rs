@@ -54,6 +54,16 @@ impl RunFolder {
         self.root.join("run.json")
     }
 
+    /// Folder of the checkpoint.
+    pub fn checkpoint(&self) -> PathBuf {
+        self.root.join("checkpoint")
+    }
+
+    /// True if `history.csv` holds at least one row.
+    pub fn holds_rows(&self) -> bool {
+        fs::read_to_string(self.history()).is_ok_and(|text| text.lines().nth(1).is_some())
+    }
+
     /// Folder of the figures, created on first use.
     ///
     /// # Errors

@@ -21,8 +21,16 @@ pub fn write_json(path: &Path, value: &serde_json::Value) -> Result<(), OutputEr
 /// # Errors
 /// The path and the operating system's reason; the hidden file is removed and an existing `path` stays as it was.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    replace(path, bytes, true)
+}
+
+/// As [`write_atomic`]; without `sync` a killed program leaves the old or the new content, a power failure perhaps neither.
+///
+/// # Errors
+/// As [`write_atomic`].
+pub fn replace(path: &Path, bytes: &[u8], sync: bool) -> Result<(), OutputError> {
     let hidden = hidden_beside(path);
-    let written = write_synced(&hidden, bytes)
+    let written = write_hidden(&hidden, bytes, sync)
         .map_err(OutputError::io("write", path))
         .and_then(|()| fs::rename(&hidden, path).map_err(OutputError::io("replace", path)));
     if written.is_err() {
@@ -32,10 +40,10 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     written
 }
 
-fn write_synced(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+fn write_hidden(path: &Path, bytes: &[u8], sync: bool) -> std::io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
-    file.sync_all()
+    if sync { file.sync_all() } else { Ok(()) }
 }
 
 fn hidden_beside(path: &Path) -> PathBuf {

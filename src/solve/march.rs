@@ -34,6 +34,10 @@ pub struct StepReport<'a> {
     pub evaluation: &'a Evaluation,
     /// Its row of the history.
     pub record: Record,
+    /// Where the march stands: what [`proceed`] goes on from.
+    pub outcome: &'a Outcome,
+    /// Its solver.
+    pub solver: &'a dyn LinearSolver,
 }
 
 /// Advances `start` through the nominal steps that lie after it and reports each. What `report` returns as an error
@@ -47,10 +51,26 @@ pub fn march<E>(
     control: &Control,
     solver: &mut dyn LinearSolver,
     interrupt: &AtomicBool,
+    report: impl FnMut(StepReport) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    proceed(model, Outcome::at(start), control, solver, interrupt, report)
+}
+
+/// Goes on from the end of a nominal step, bit for bit like the march that reported it; the solver must recall what that of
+/// the other march remembered there.
+///
+/// # Errors
+/// As [`march`].
+pub fn proceed<E>(
+    model: &Model,
+    from: Outcome,
+    control: &Control,
+    solver: &mut dyn LinearSolver,
+    interrupt: &AtomicBool,
     mut report: impl FnMut(StepReport) -> Result<(), E>,
 ) -> Result<Outcome, E> {
     let nominal = control.end / control.steps as f64;
-    let first = (start.time / nominal).round() as usize;
+    let first = (from.state.time / nominal).round() as usize;
     let smallest = nominal * 0.5_f64.powi(control.max_cuts as i32);
     let mut march = March {
         model,
@@ -59,9 +79,7 @@ pub fn march<E>(
         interrupt,
         nominal,
         smallest,
-        dt: nominal,
-        law: f64::INFINITY,
-        outcome: Outcome::at(start),
+        outcome: Outcome { status: Status::Done, ..from },
     };
     for step in first + 1..=control.steps {
         let clock = Instant::now();
@@ -78,7 +96,8 @@ pub fn march<E>(
                     weakening: found.weakening,
                     ..record(model, &outcome.state, &found.evaluation)
                 };
-                report(StepReport { state: &outcome.state, evaluation: &found.evaluation, record })?;
+                let (state, evaluation, solver) = (&outcome.state, &found.evaluation, &*march.solver);
+                report(StepReport { state, evaluation, record, outcome, solver })?;
             }
             Err(status) => {
                 march.outcome.status = status;
@@ -112,10 +131,6 @@ struct March<'a> {
     interrupt: &'a AtomicBool,
     nominal: f64,
     smallest: f64,
-    /// Step to be tried next; remembered from one nominal step to the next.
-    dt: f64,
-    /// Longest step that the law accepted last.
-    law: f64,
     outcome: Outcome,
 }
 
@@ -137,8 +152,8 @@ impl March<'_> {
             }
             // A remainder below half a sub-step joins the last one.
             let left = target - time;
-            let wanted = if left <= 1.5 * self.dt { left } else { self.dt };
-            let pieces = (wanted / self.law * VETO).ceil().max(1.0);
+            let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
+            let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
             let next = within_stride(self.model, time, wanted);
             match self.step(next) {
@@ -152,10 +167,10 @@ impl March<'_> {
                 Err(failure) => {
                     self.outcome.cuts += 1;
                     match failure {
-                        StepFailure::Vetoed { step, .. } => self.law = step,
-                        _ => self.dt = 0.5 * (next - time),
+                        StepFailure::Vetoed { step, .. } => self.outcome.law = step,
+                        _ => self.outcome.dt = 0.5 * (next - time),
                     }
-                    if self.dt.min(self.law) < self.smallest {
+                    if self.outcome.dt.min(self.outcome.law) < self.smallest {
                         return Err(Status::NotConverged { time, reason: failure.to_string() });
                     }
                 }
@@ -174,7 +189,7 @@ impl March<'_> {
         }
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
-        (self.dt, self.law) = ((2.0 * self.dt).min(self.nominal), law);
+        (self.outcome.dt, self.outcome.law) = ((2.0 * self.outcome.dt).min(self.nominal), law);
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
     }
