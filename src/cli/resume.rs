@@ -20,11 +20,14 @@ pub fn begin(
     let tell = |text: String| if arguments.quiet { () } else { note(text) };
     if !arguments.resume {
         if let Some((step, steps)) = Checkpoint::unfinished(folder).filter(|_| !arguments.quiet) {
-            warn(format!("{out} held an unfinished run (step {step} of {steps}); it is replaced, --resume goes on with one"));
+            warn(format!(
+                "{out} held an unfinished run (step {step} of {steps}); it is replaced, --resume goes on with one"
+            ));
         }
         return Ok(start());
     }
-    let help = format!("\n  = help: nothing was changed; without --resume the run starts again and replaces what is in {out}");
+    let help =
+        format!("\n  = help: nothing was changed; without --resume the run starts again and replaces what is in {out}");
     match Checkpoint::load(folder, scene, model).map_err(|error| Failure::input(format!("{error}{help}")))? {
         Some(found) if found.step() > 0 => {
             if !found.finished(scene) {

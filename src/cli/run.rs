@@ -39,7 +39,9 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     progress.end();
     let again = command(arguments, &out);
     let RunReport { outcome, findings } = report.map_err(|error| {
-        Failure::internal(format!("{error}\n  = help: the steps before are kept; once this is put right, go on by\n    {again}"))
+        Failure::internal(format!(
+            "{error}\n  = help: the steps before are kept; once this is put right, go on by\n    {again}"
+        ))
     })?;
     if !arguments.quiet {
         findings.iter().filter(|finding| finding.warns()).for_each(warn);

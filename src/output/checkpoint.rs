@@ -52,9 +52,14 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, OutputError> 
 
 /// The bytes of a checkpoint.
 pub fn encode(value: &impl Serialize) -> Vec<u8> {
-    let content = rmp_serde::to_vec_named(value).expect("plain data");
-    let head = format!("{NAME} {FORMAT}, asperity {PROGRAM}, {} bytes, checksum {:016x}\n", content.len(), sum(&content));
-    [head.as_bytes(), &content].concat()
+    sealed(&rmp_serde::to_vec_named(value).expect("plain data"))
+}
+
+/// Content below the line that says what it is.
+pub fn sealed(content: &[u8]) -> Vec<u8> {
+    let head =
+        format!("{NAME} {FORMAT}, asperity {PROGRAM}, {} bytes, checksum {:016x}\n", content.len(), sum(content));
+    [head.as_bytes(), content].concat()
 }
 
 /// The value in the bytes of a checkpoint.
@@ -119,7 +124,10 @@ impl Displacements {
         let length = 16 * points * steps;
         if bytes.len() < length {
             let found = bytes.len() / (16 * points).max(1);
-            return Err(OutputError::content(path, format!("holds {found} steps, the checkpoint stands at step {steps}")));
+            return Err(OutputError::content(
+                path,
+                format!("holds {found} steps, the checkpoint stands at step {steps}"),
+            ));
         }
         bytes.truncate(length);
         let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io("append to", path))?;

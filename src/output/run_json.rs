@@ -40,6 +40,22 @@ pub fn replace(path: &Path, bytes: &[u8], sync: bool) -> Result<(), OutputError>
     written
 }
 
+/// Removes hidden files that a killed program left in a folder, if there is one.
+///
+/// # Errors
+/// The path and the operating system's reason.
+pub fn remove_hidden(folder: &Path) -> Result<(), OutputError> {
+    let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let process = name.strip_suffix(".tmp").and_then(|name| name.rsplit('.').next()?.parse::<u32>().ok());
+        if name.starts_with('.') && process.is_some() {
+            fs::remove_file(&path).map_err(OutputError::io("remove", &path))?;
+        }
+    }
+    Ok(())
+}
+
 fn write_hidden(path: &Path, bytes: &[u8], sync: bool) -> std::io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
@@ -65,6 +81,9 @@ mod tests {
             let back: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
             assert_eq!(back, value);
         }
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::write(hidden_beside(&path), "half").unwrap();
+        remove_hidden(&folder).unwrap();
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
         fs::remove_dir_all(&folder).unwrap();
     }

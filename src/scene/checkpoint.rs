@@ -82,7 +82,9 @@ impl Checkpoint {
             return Err(ResumeError::OtherRun { path, differences });
         }
         if !fits(&found.outcome.state, model) {
-            return Err(OutputError::content(&path, "its state is not one of this scene: written by another build?").into());
+            return Err(
+                OutputError::content(&path, "its state is not one of this scene: written by another build?").into()
+            );
         }
         Ok(Some(Self { scene: json(scene).to_string(), ..found }))
     }

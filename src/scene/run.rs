@@ -71,6 +71,7 @@ pub fn resume(
     let wall_s = || before + clock.elapsed().as_secs_f64();
     let plan = time_plan(scene);
     let mut warnings = step_warnings(model, &plan);
+    folder.tidy()?;
     checkpoint::create_folder(&folder.checkpoint())?;
     at.write(folder, false, true)?;
     folder.write_run(&summary(scene, model, &warnings, json!({ "status": "running" })))?;

@@ -5,7 +5,10 @@ use std::path::Path;
 
 /// A run that could not reach its end: its folder holds an unfinished checkpoint.
 fn unfinished(name: &str) -> std::path::PathBuf {
-    let folder = folder(name, &SCENE.replace("[body.upper]\nshape = { type = \"block\"", "[body.upper]\nshape = { type = \"block\""));
+    let folder = folder(
+        name,
+        &SCENE.replace("[body.upper]\nshape = { type = \"block\"", "[body.upper]\nshape = { type = \"block\""),
+    );
     let stop = ["--set", "time.end=0.5", "--set", "time.steps=10"];
     let output = asperity(&folder, &[&["run", "scene.toml", "--quiet", "--out", "it"][..], &stop].concat());
     assert!(output.status.success(), "{}", said(&output));
@@ -28,12 +31,24 @@ fn refused(folder: &Path, arguments: &[&str], says: &[&str]) {
 #[test]
 fn another_scene_is_refused_and_what_differs_is_named() {
     let folder = unfinished("other-scene");
-    refused(&folder, &["--set", "contact.0.law.friction=0.25"], &["contact.0.law.friction: 0.3 in the checkpoint, 0.25 now"]);
-    refused(&folder, &["--set", "body.upper.elements=[14, 4]"], &["body.upper.elements.0: 13 in the checkpoint, 14 now"]);
+    refused(
+        &folder,
+        &["--set", "contact.0.law.friction=0.25"],
+        &["contact.0.law.friction: 0.3 in the checkpoint, 0.25 now"],
+    );
+    refused(
+        &folder,
+        &["--set", "body.upper.elements=[14, 4]"],
+        &["body.upper.elements.0: 13 in the checkpoint, 14 now"],
+    );
     refused(&folder, &["--set", "output.fields=2"], &["output.fields: 3 in the checkpoint, 2 now"]);
     refused(&folder, &["--set", "time.steps=21"], &["time.steps: 10 in the checkpoint, 21 now"]);
     refused(&folder, &["--set", "time.max_cuts=3"], &["time.max_cuts: 12 in the checkpoint, 3 now"]);
-    refused(&folder, &["--set", "time.end=0.25", "--set", "time.steps=5"], &["time.steps: 10 in the checkpoint, 5 now"]);
+    refused(
+        &folder,
+        &["--set", "time.end=0.25", "--set", "time.steps=5"],
+        &["time.steps: 10 in the checkpoint, 5 now"],
+    );
 }
 
 #[test]

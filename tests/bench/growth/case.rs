@@ -5,7 +5,9 @@ use std::fmt;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use asperity::math::{CondensedSolver, Counters, DenseLu, DenseMatrix, LinearSolver, SolveError, SolverMemory, SparseLu, System};
+use asperity::math::{
+    CondensedSolver, Counters, DenseLu, DenseMatrix, LinearSolver, SolveError, SolverMemory, SparseLu, System,
+};
 use asperity::model::{State, Tangent, evaluate};
 use asperity::solve::{Control, march};
 use cpu_time::ThreadTime;
