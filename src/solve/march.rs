@@ -13,6 +13,9 @@ use super::status::{Outcome, Status};
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
 
+/// A step that must be halved more often for its drive to be followed is a slip of the pen.
+const MOST_HALVINGS: usize = 12;
+
 /// Time plan of an analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
@@ -108,8 +111,9 @@ pub fn proceed<E>(
     Ok(march.outcome)
 }
 
-/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`.
-fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
+/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`; `None` where a drive outruns that by
+/// more than [`MOST_HALVINGS`].
+fn within_stride(model: &Model, time: f64, wanted: f64) -> Option<f64> {
     let travel = |until: f64| {
         let of = |motion: &Motion| match &motion.control {
             MotionControl::Displacement(table) => (table.at(until) - table.at(time)).abs(),
@@ -117,10 +121,8 @@ fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
         };
         model.motions.iter().map(of).fold(0.0, f64::max)
     };
-    while travel(wanted) > model.stride {
-        wanted = time + 0.5 * (wanted - time);
-    }
-    wanted
+    let mut halved = std::iter::successors(Some(wanted), |until| Some(time + 0.5 * (until - time)));
+    halved.by_ref().take(MOST_HALVINGS).find(|until| travel(*until) <= model.stride)
 }
 
 /// A march under way.
@@ -155,7 +157,12 @@ impl March<'_> {
             let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
             let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
-            let next = within_stride(self.model, time, wanted);
+            let Some(next) = within_stride(self.model, time, wanted) else {
+                let stride = self.model.stride;
+                let reason =
+                    format!("a driven edge moves so fast that steps of {stride:.1e} cannot follow it: take more steps");
+                return Err(Status::NotConverged { time, reason });
+            };
             match self.step(next) {
                 Ok(done) => {
                     weakening = weakening.max(done.weakening);
