@@ -17,7 +17,11 @@ pub fn begin(
     folder: &RunFolder,
 ) -> Result<Checkpoint, Failure> {
     let (out, start) = (folder.root().display(), || Checkpoint::start(scene, model));
-    let tell = |text: String| if arguments.quiet { () } else { note(text) };
+    let tell = |text: String| {
+        if !arguments.quiet {
+            note(text);
+        }
+    };
     if !arguments.resume {
         if let Some((step, steps)) = Checkpoint::unfinished(folder).filter(|_| !arguments.quiet) {
             warn(format!(

@@ -5,10 +5,7 @@ use std::path::Path;
 
 /// A run that could not reach its end: its folder holds an unfinished checkpoint.
 fn unfinished(name: &str) -> std::path::PathBuf {
-    let folder = folder(
-        name,
-        &SCENE.replace("[body.upper]\nshape = { type = \"block\"", "[body.upper]\nshape = { type = \"block\""),
-    );
+    let folder = folder(name, SCENE);
     let stop = ["--set", "time.end=0.5", "--set", "time.steps=10"];
     let output = asperity(&folder, &[&["run", "scene.toml", "--quiet", "--out", "it"][..], &stop].concat());
     assert!(output.status.success(), "{}", said(&output));
