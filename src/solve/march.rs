@@ -16,6 +16,10 @@ const VETO: f64 = 1.0 - 1e-9;
 /// A step that must be halved more often for its drive to be followed is a slip of the pen.
 const MOST_HALVINGS: usize = 12;
 
+/// Iterations above which the next step is half as long: an easy step takes about four, so two of half the length cost no
+/// more then (measured in `papers/cost`).
+const HARD: usize = 8;
+
 /// Time plan of an analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
@@ -196,7 +200,9 @@ impl March<'_> {
         }
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
-        (self.outcome.dt, self.outcome.law) = ((2.0 * self.outcome.dt).min(self.nominal), law);
+        let (hard, double) = (done.iterations > HARD, 2.0 * self.outcome.dt);
+        self.outcome.dt = if hard { (0.5 * dt).max(self.smallest) } else { double.min(self.nominal) };
+        self.outcome.law = law;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
     }
