@@ -99,8 +99,8 @@ struct RunArguments {
     out: Option<PathBuf>,
     /// Go on with the run in the folder of the results, bit for bit as if it had not been interrupted.
     ///
-    /// The scene must be the same; only a later `time.end` with steps of the same length, and more `time.max_cuts`, are accepted.
-    /// Where no step was reached yet the run starts from the beginning; a finished one is left as it is.
+    /// The scene must be the same; only a later `time.end` with steps of the same length is accepted, and, for a run that did not
+    /// converge, more `time.max_cuts` from its last step on. Where no step was reached yet the run starts from the beginning; a finished one is left as it is.
     #[arg(long)]
     resume: bool,
     /// Print errors only.

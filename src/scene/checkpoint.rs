@@ -70,7 +70,7 @@ impl Checkpoint {
     }
 
     /// The checkpoint in a folder, if it is of this scene; `None` where there is none. A later end with steps of the same length
-    /// and more cuts are still the same run.
+    /// is still the same run; more cuts are let through, so that a run that did not converge can be tried on from its last step.
     ///
     /// # Errors
     /// A file that cannot be used, or what differs.
@@ -152,7 +152,7 @@ impl Checkpoint {
         found
     }
 
-    /// Whether all steps so far would have been the same under another time plan.
+    /// Whether all steps so far would have been the same under another time plan, but for cuts that were not allowed.
     fn extends(&self, before: &TimeSpec, now: &TimeSpec) -> bool {
         let nominal = |time: &TimeSpec| time.end / time.steps as f64;
         let step = nominal(now);
