@@ -6,13 +6,14 @@
 use asperity::output::RunFolder;
 use asperity::scene::{self, Scene, build};
 use asperity::solve::Status;
+use cpu_time::ProcessTime;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Longest time for a few steps of a few elements, on a busy machine; then it counts as hanging.
+/// Longest CPU time for a few steps of a few elements; then it counts as hanging.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Numbers of any size, most of them of the order of the scene.
@@ -157,12 +158,13 @@ fn folder() -> PathBuf {
     std::env::temp_dir().join(format!("asperity-random-{}", std::process::id()))
 }
 
-/// Raises the flag if the returned sender does not say within [`PATIENCE`] that all is done.
+/// Raises the flag once the process has worked for [`PATIENCE`] before the returned sender says that all is done.
 fn alarm(flag: Arc<AtomicBool>) -> std::sync::mpsc::Sender<()> {
     let (done, wait) = std::sync::mpsc::channel();
+    let clock = ProcessTime::now();
     std::thread::spawn(move || {
-        if wait.recv_timeout(PATIENCE) == Err(std::sync::mpsc::RecvTimeoutError::Timeout) {
-            flag.store(true, Ordering::Relaxed);
+        while wait.recv_timeout(PATIENCE / 100) == Err(std::sync::mpsc::RecvTimeoutError::Timeout) {
+            flag.store(clock.elapsed() > PATIENCE, Ordering::Relaxed);
         }
     });
     done
