@@ -6,6 +6,7 @@ mod check;
 mod laws;
 mod outcome;
 mod probe;
+mod resume;
 mod run;
 
 use std::path::PathBuf;
@@ -29,7 +30,7 @@ Exit codes:
   2  bad input: nothing was computed, the message names file, line, key and what is allowed
   3  did not converge: all steps before are kept
   4  converged, but an audit failed: do not trust the result
-  5  interrupted: all steps before are kept";
+  5  interrupted: all steps before and a checkpoint are kept; the same command with --resume goes on";
 
 /// Large-deformation frictional contact of soft asperities in plane strain.
 ///
@@ -47,7 +48,8 @@ enum Command {
     /// Compute a scene and write a folder of results.
     ///
     /// The folder holds history.csv (one row per nominal step), interface.csv, fields/*.vtu with fields.pvd, figures
-    /// and run.json. Ctrl-C stops at the next iteration and keeps everything computed so far (exit code 5).
+    /// and run.json. Ctrl-C stops at the next iteration and keeps everything computed so far (exit code 5); after that, or
+    /// after a crash or a kill at any moment, --resume goes on behind the last step that was reached.
     Run(RunArguments),
     /// Validate a scene and print the model chosen: what is modelled, what is left out and why, sizes.
     ///
@@ -95,6 +97,12 @@ struct RunArguments {
     /// Folder of the results; made if it does not exist [default: out/<name of the scene>].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Go on with the run in the folder of the results, bit for bit as if it had not been interrupted.
+    ///
+    /// The scene must be the same; only a later `time.end` with steps of the same length is accepted, and, for a run that did not
+    /// converge, more `time.max_cuts` from its last step on. Where no step was reached yet the run starts from the beginning; a finished one is left as it is.
+    #[arg(long)]
+    resume: bool,
     /// Print errors only.
     #[arg(long)]
     quiet: bool,

@@ -6,10 +6,12 @@
 //! | `fields/step_*.vtu`, `fields.pvd` | [`vtu`] | after every field output |
 //! | `figures/*.svg`, `figures/*.png` | [`figures`] | at the end, or from the tables of an interrupted run |
 //! | `run.json` | [`run_json`] | whenever the caller says so, atomically |
+//! | `checkpoint/` | [`checkpoint`] | after every nominal step: what `--resume` goes on from |
 //! | `README.txt` | [`readme`] | at the start: every file and column with its unit |
 //!
 //! This room formats numbers that others computed; it computes no mechanics of its own.
 
+pub mod checkpoint;
 mod error;
 pub mod figures;
 mod folder;

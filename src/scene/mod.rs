@@ -7,6 +7,7 @@
 //! [`Scene`] is plain data with all defaults filled in; a program may as well make one itself, and `build` either kind.
 
 mod build;
+mod checkpoint;
 mod fields;
 mod grammar;
 mod issue;
@@ -28,13 +29,14 @@ use std::path::Path;
 use serde::Deserialize;
 
 pub use build::build;
+pub use checkpoint::{Checkpoint, ResumeError};
 pub use grammar::Grammar;
 pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
 pub use motion::{Components, Course, DriveSpec, Motion, SupportSpec, TimeTable};
 pub use numerics::{Integration, Numerics, Projection, Sites, Solution, Solver};
 pub use probe::Probe;
 pub use programme::Programme;
-pub use run::{RunReport, run, sizes, status_name, time_plan};
+pub use run::{RunReport, resume, run, sizes, status_name, time_plan};
 pub use source::Source;
 pub use spec::{BodySpec, ContactSpec, MaterialSpec, OutputSpec, Scene, Side, TimeSpec, Units};
 

@@ -45,6 +45,14 @@ impl Probe {
             let message = format!("cannot read the probe {}: {error}", file.display());
             SceneError::from(Issue::value(KeyPath::default(), message).allowed("a TOML file in UTF-8"))
         })?;
+        Self::parse(file, text, info)
+    }
+
+    /// As [`Probe::load`] with the text at hand; `file` is for messages only.
+    ///
+    /// # Errors
+    /// As [`Probe::load`].
+    pub fn parse(file: &Path, text: String, info: &LawInfo) -> Result<(Self, Box<dyn FrictionLaw>), SceneError> {
         let mut source = Source::parse(file, text)?;
         name_law(&mut source.root, info.name);
         Self::read(&source, info).map_err(|error| source.locate(error))

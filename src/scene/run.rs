@@ -1,19 +1,24 @@
 //! A scene computed into a folder: march, record, draw, and say in `run.json` how it went.
 
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
 use crate::contact::ContactDiscretization;
 use crate::math::Counters;
-use crate::model::{Model, Pair, Record, State};
-use crate::output::{OutputError, RunFolder};
-use crate::solve::{Control, Outcome, Status, march};
-use crate::verify::{Audit, Expectations, Finding, step_warnings};
+use crate::model::{Model, Pair, Record};
+use crate::output::{OutputError, RunFolder, checkpoint};
+use crate::solve::{Control, Outcome, Status, proceed};
+use crate::verify::{Finding, step_warnings};
 
+use super::checkpoint::Checkpoint;
 use super::recorder::Recorder;
 use super::spec::Scene;
+
+/// Time between two waits for the disk itself. A killed program loses no step that was reached, whatever this is; a power failure
+/// loses those since. Waiting after every step would cost more than a step of a small scene.
+const SYNC_EVERY: Duration = Duration::from_secs(1);
 
 /// How a run went.
 #[derive(Debug)]
@@ -44,30 +49,55 @@ pub fn run(
     model: &Model,
     folder: &RunFolder,
     interrupt: &AtomicBool,
+    watch: impl FnMut(&Record),
+) -> Result<RunReport, OutputError> {
+    resume(scene, model, folder, Checkpoint::start(scene, model), interrupt, watch)
+}
+
+/// Goes on from a checkpoint of this scene in `folder`: in the end all files are those of a run in one go, bit for bit, wall
+/// times apart. A new checkpoint is written after every nominal step.
+///
+/// # Errors
+/// As [`run`].
+pub fn resume(
+    scene: &Scene,
+    model: &Model,
+    folder: &RunFolder,
+    mut at: Checkpoint,
+    interrupt: &AtomicBool,
     mut watch: impl FnMut(&Record),
 ) -> Result<RunReport, OutputError> {
-    let clock = Instant::now();
+    let (clock, before) = (Instant::now(), at.wall_s());
+    let wall_s = || before + clock.elapsed().as_secs_f64();
     let plan = time_plan(scene);
     let mut warnings = step_warnings(model, &plan);
+    folder.tidy()?;
+    checkpoint::create_folder(&folder.checkpoint())?;
+    at.write(folder, false, true)?;
     folder.write_run(&summary(scene, model, &warnings, json!({ "status": "running" })))?;
-    let mut recorder = Recorder::new(scene, model, folder)?;
-    let state = State::initial(model);
-    recorder.start(&state)?;
-    let mut audit = Audit::new(Expectations::of(model));
-    let mut reached = 0;
+    let mut recorder = Recorder::open(scene, model, folder, at.step())?;
     let mut solver = scene.solution.solver.create();
-    let outcome = march(model, state, &plan, solver.as_mut(), interrupt, |report| {
+    solver.recall(at.solver.clone());
+    let mut synced = Instant::now();
+    let outcome = proceed(model, at.outcome.clone(), &plan, solver.as_mut(), interrupt, |report| {
         recorder.step(&report)?;
-        audit.take(&report.record);
-        reached = report.record.step;
+        at.take(&report, wall_s());
+        let sync = synced.elapsed() >= SYNC_EVERY;
+        if sync {
+            recorder.sync()?;
+            synced = Instant::now();
+        }
+        at.write(folder, false, sync)?;
         watch(&report.record);
         Ok::<(), OutputError>(())
     })?;
     recorder.finish(scene)?;
-    let report = RunReport { outcome, findings: audit.findings() };
+    recorder.sync()?;
+    let report = RunReport { outcome, findings: at.findings() };
     warnings.extend(report.findings.iter().filter(|finding| finding.warns()).map(Finding::to_string));
-    let result = conclusion(&report, &solver.counters(), reached, clock.elapsed().as_secs_f64());
+    let result = conclusion(&report, &solver.counters(), at.step(), wall_s());
     folder.write_run(&summary(scene, model, &warnings, result))?;
+    at.write(folder, report.outcome.status == Status::Done, true)?;
     Ok(report)
 }
 

@@ -16,6 +16,9 @@ use super::status::{Outcome, Status};
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
 
+/// A step that must be halved more often for its drive to be followed is a slip of the pen.
+const MOST_HALVINGS: usize = 12;
+
 /// Iterations above which the next step is half as long: an easy step takes about four, so two of half the length cost no
 /// more then (measured in `papers/cost`).
 const HARD: usize = 8;
@@ -44,6 +47,10 @@ pub struct StepReport<'a> {
     pub evaluation: &'a Evaluation,
     /// Its row of the history.
     pub record: Record,
+    /// Where the march stands: what [`proceed`] goes on from.
+    pub outcome: &'a Outcome,
+    /// Its solver.
+    pub solver: &'a dyn LinearSolver,
 }
 
 /// Advances `start` through the nominal steps that lie after it and reports each. What `report` returns as an error
@@ -57,10 +64,26 @@ pub fn march<E>(
     control: &Control,
     solver: &mut dyn LinearSolver,
     interrupt: &AtomicBool,
+    report: impl FnMut(StepReport) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    proceed(model, Outcome::at(start), control, solver, interrupt, report)
+}
+
+/// Goes on from the end of a nominal step, bit for bit like the march that reported it; the solver must recall what that of
+/// the other march remembered there.
+///
+/// # Errors
+/// As [`march`].
+pub fn proceed<E>(
+    model: &Model,
+    from: Outcome,
+    control: &Control,
+    solver: &mut dyn LinearSolver,
+    interrupt: &AtomicBool,
     mut report: impl FnMut(StepReport) -> Result<(), E>,
 ) -> Result<Outcome, E> {
     let nominal = control.end / control.steps as f64;
-    let first = (start.time / nominal).round() as usize;
+    let first = (from.state.time / nominal).round() as usize;
     let smallest = nominal * 0.5_f64.powi(control.max_cuts as i32);
     let mut march = March {
         model,
@@ -69,11 +92,9 @@ pub fn march<E>(
         interrupt,
         nominal,
         smallest,
-        dt: nominal,
-        law: f64::INFINITY,
         failures: 0,
         drag: None,
-        outcome: Outcome::at(start),
+        outcome: Outcome { status: Status::Done, ..from },
     };
     for step in first + 1..=control.steps {
         let clock = Instant::now();
@@ -91,7 +112,8 @@ pub fn march<E>(
                     weakening: found.weakening,
                     ..record(model, &outcome.state, &found.evaluation)
                 };
-                report(StepReport { state: &outcome.state, evaluation: &found.evaluation, record })?;
+                let (state, evaluation, solver) = (&outcome.state, &found.evaluation, &*march.solver);
+                report(StepReport { state, evaluation, record, outcome, solver })?;
             }
             Err(status) => {
                 march.outcome.status = status;
@@ -102,8 +124,9 @@ pub fn march<E>(
     Ok(march.outcome)
 }
 
-/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`.
-fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
+/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`; `None` where a drive outruns that by
+/// more than [`MOST_HALVINGS`].
+fn within_stride(model: &Model, time: f64, wanted: f64) -> Option<f64> {
     let travel = |until: f64| {
         let of = |motion: &Motion| match &motion.control {
             MotionControl::Displacement(table) => (table.at(until) - table.at(time)).abs(),
@@ -111,10 +134,8 @@ fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
         };
         model.motions.iter().map(of).fold(0.0, f64::max)
     };
-    while travel(wanted) > model.stride {
-        wanted = time + 0.5 * (wanted - time);
-    }
-    wanted
+    let mut halved = std::iter::successors(Some(wanted), |until| Some(time + 0.5 * (until - time)));
+    halved.by_ref().take(MOST_HALVINGS).find(|until| travel(*until) <= model.stride)
 }
 
 /// A march under way.
@@ -125,10 +146,6 @@ struct March<'a> {
     interrupt: &'a AtomicBool,
     nominal: f64,
     smallest: f64,
-    /// Step to be tried next; remembered from one nominal step to the next.
-    dt: f64,
-    /// Longest step that the law accepted last.
-    law: f64,
     /// Cuts since the last step.
     failures: usize,
     /// Made when it is needed first.
@@ -154,10 +171,15 @@ impl March<'_> {
             }
             // A remainder below half a sub-step joins the last one.
             let left = target - time;
-            let wanted = if left <= 1.5 * self.dt { left } else { self.dt };
-            let pieces = (wanted / self.law * VETO).ceil().max(1.0);
+            let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
+            let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
-            let next = within_stride(self.model, time, wanted);
+            let Some(next) = within_stride(self.model, time, wanted) else {
+                let stride = self.model.stride;
+                let reason =
+                    format!("a driven edge moves so fast that steps of {stride:.1e} cannot follow it: take more steps");
+                return Err(Status::NotConverged { time, reason });
+            };
             match self.step(next) {
                 Ok(done) => {
                     weakening = weakening.max(done.weakening);
@@ -173,10 +195,10 @@ impl March<'_> {
                         continue;
                     }
                     match failure {
-                        StepFailure::Vetoed { step, .. } => self.law = step,
-                        _ => self.dt = 0.5 * (next - time),
+                        StepFailure::Vetoed { step, .. } => self.outcome.law = step,
+                        _ => self.outcome.dt = 0.5 * (next - time),
                     }
-                    if self.dt.min(self.law) < self.smallest {
+                    if self.outcome.dt.min(self.outcome.law) < self.smallest {
                         return Err(Status::NotConverged { time, reason: failure.to_string() });
                     }
                 }
@@ -195,9 +217,9 @@ impl March<'_> {
         }
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
-        let hard = done.iterations > HARD;
-        self.dt = if hard { (0.5 * dt).max(self.smallest) } else { (2.0 * self.dt).min(self.nominal) };
-        self.law = law;
+        let (hard, double) = (done.iterations > HARD, 2.0 * self.outcome.dt);
+        self.outcome.dt = if hard { (0.5 * dt).max(self.smallest) } else { double.min(self.nominal) };
+        self.outcome.law = law;
         self.failures = 0;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)

@@ -11,7 +11,7 @@ mod status;
 pub mod weakening;
 
 pub use interface_loop::Strategy;
-pub use march::{Control, StepReport, march};
+pub use march::{Control, StepReport, march, proceed};
 pub use newton::{NewtonReport, StepFailure, solve_step};
 pub use predictor::predict;
 pub use status::{Outcome, Status};

@@ -70,6 +70,14 @@ impl HistoryWriter {
     pub fn append(&mut self, record: &Record) -> Result<(), OutputError> {
         self.table.rows(std::iter::once(cells(record)))
     }
+
+    /// Waits until all rows are on the disk itself.
+    ///
+    /// # Errors
+    /// The path and the operating system's reason.
+    pub fn sync(&self) -> Result<(), OutputError> {
+        self.table.sync()
+    }
 }
 
 fn header() -> Vec<String> {

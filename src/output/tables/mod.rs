@@ -61,6 +61,11 @@ impl Table {
         }
         self.writer.flush().map_err(OutputError::io("append to", &self.path))
     }
+
+    /// Waits until all rows are on the disk itself.
+    fn sync(&self) -> Result<(), OutputError> {
+        self.writer.get_ref().sync_data().map_err(OutputError::io("write", &self.path))
+    }
 }
 
 /// The header and the complete rows up to and including `last_step` (first column of every table).
