@@ -2,7 +2,11 @@
 
 mod elements;
 mod material;
+mod projected;
 mod stiffness;
+mod volume;
 
 pub use elements::{BulkForces, Elements};
-pub use material::{LinearElastic, Material, NeoHookean, StressResponse, lame};
+pub use material::{Dilatation, LinearElastic, Material, NeoHookean, StressResponse, lame};
+pub use projected::Tau;
+pub use volume::VolumeSpace;

@@ -93,6 +93,73 @@ fn product(row: &[[f64; 8]], group: &[Gradients]) -> Blocks {
     sum
 }
 
+/// Sum of dyads `factor v v^T` of vectors at the nodes, kept like a [`Stiffness`].
+pub(super) struct Dyads {
+    /// Entries of each vector, group by group of nodes.
+    vectors: Vec<Gradients>,
+    groups: usize,
+    blocks: Vec<Blocks>,
+    arch: pulp::Arch,
+}
+
+impl Dyads {
+    pub fn new(nodes: usize, count: usize) -> Self {
+        let groups = nodes.div_ceil(LANES);
+        let vectors = vec![[[0.0; LANES]; 2]; groups * count];
+        Self { vectors, groups, blocks: vec![[[0.0; LANES]; 4]; first_block(nodes)], arch: pulp::Arch::new() }
+    }
+
+    /// Sets all vectors to zero, for another number of nodes.
+    pub fn clear(&mut self, nodes: usize) {
+        self.vectors.fill([[0.0; LANES]; 2]);
+        self.blocks.resize(first_block(nodes), [[0.0; LANES]; 4]);
+    }
+
+    /// Adds to vector `k` at a node.
+    pub fn add(&mut self, k: usize, node: usize, x: f64, y: f64) {
+        let group = &mut self.vectors[k * self.groups + node / LANES];
+        group[0][node % LANES] += x;
+        group[1][node % LANES] += y;
+    }
+
+    /// The sum over all vectors, for `nodes` nodes.
+    pub fn sum(&mut self, nodes: usize, factor: f64) -> &[f64] {
+        self.arch.dispatch(SumDyads { dyads: self, nodes, factor });
+        self.blocks.as_flattened().as_flattened()
+    }
+}
+
+/// The work, for the widest registers that the machine has.
+struct SumDyads<'a> {
+    dyads: &'a mut Dyads,
+    nodes: usize,
+    factor: f64,
+}
+
+impl pulp::NullaryFnOnce for SumDyads<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Dyads { vectors, groups, blocks, .. } = self.dyads;
+        let mut target = blocks.iter_mut();
+        for a in 0..self.nodes {
+            for (g, block) in (0..a / LANES + 1).zip(&mut target) {
+                let mut sum = [[0.0; LANES]; 4];
+                for vector in vectors.chunks_exact(*groups) {
+                    for (ik, sum) in sum.iter_mut().enumerate() {
+                        let row = self.factor * vector[a / LANES][ik / 2][a % LANES];
+                        for lane in 0..LANES {
+                            sum[lane] += row * vector[g][ik % 2][lane];
+                        }
+                    }
+                }
+                *block = sum;
+            }
+        }
+    }
+}
+
 /// Number of blocks before those of node `a`.
 fn first_block(a: usize) -> usize {
     let full = a / LANES;

@@ -12,7 +12,8 @@ use super::weakening::{self, Linearisation};
 
 /// Accepted residual relative to the largest nodal force.
 const RELATIVE: f64 = 1e-9;
-/// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
+/// Accepted residual relative to the size of the model times `E` and, near incompressibility, `(lambda + 2 mu)/E`: round-off
+/// of a translated body.
 const ROUND_OFF: f64 = 1e-14;
 
 /// Iterations without a residual below half of the best before, after which the next guess is tried.
@@ -265,7 +266,7 @@ fn stalled(residuals: &[f64]) -> bool {
 
 /// True where the residual is as small as is asked for.
 fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
-    let floor = ROUND_OFF * model.modulus * model.size();
+    let floor = ROUND_OFF * model.modulus * model.confinement * model.size();
     largest(&evaluation.residual) <= RELATIVE * evaluation.force_scale + floor
 }
 

@@ -1,0 +1,156 @@
+//! Element integrals with projected dilatations, see [`VolumeSpace`](super::VolumeSpace).
+
+use nalgebra::Matrix2;
+
+use super::elements::{BulkForces, Elements, deformation_gradient};
+use super::material::{Dilatation, Material};
+use super::stiffness::{Dyads, Stiffness};
+use super::volume::{Block, Volume};
+use crate::geometry::Point;
+
+/// What is kept of one block while it is integrated.
+struct Sums {
+    /// Deformation gradient and dilatation at the quadrature points.
+    points: Vec<(Matrix2<f64>, Dilatation)>,
+    /// `int phi_k theta dX`.
+    theta: Vec<f64>,
+    /// Nodal forces of one element.
+    forces: Vec<Point>,
+    /// Stiffness at constant `tau` of one element, and `lambda sum_k b_k b_k^T` of the block with `b_k = int phi_k d theta dX`.
+    stiffness: Option<(Stiffness, Dyads)>,
+}
+
+impl Sums {
+    fn new(elements: &Elements, volume: &Volume, stiffness: bool) -> Self {
+        let (nodes, points, functions) =
+            (elements.nodes_per_element, elements.points_per_element, volume.space.functions());
+        let largest = |size: fn(&Block) -> usize| volume.blocks.iter().map(size).max().unwrap_or(0);
+        let dyads = || Dyads::new(largest(|block| block.nodes.len()), functions);
+        Self {
+            points: Vec::with_capacity(points * largest(|block| block.elements.len())),
+            theta: vec![0.0; functions],
+            forces: vec![Point::zeros(); nodes],
+            stiffness: stiffness.then(|| (Stiffness::new(nodes, points), dyads())),
+        }
+    }
+}
+
+impl Elements {
+    /// As [`Elements::integrate`]; blocks are handed over behind their elements and have a stiffness only.
+    pub(super) fn integrate_projected(
+        &self,
+        volume: &Volume,
+        material: &dyn Material,
+        u: &[Point],
+        stiffness: bool,
+        mut take: impl FnMut(usize, BulkForces),
+    ) -> Option<f64> {
+        let lambda = material.lambda();
+        let mut sums = Sums::new(self, volume, stiffness);
+        let mut energy = 0.0;
+        for (k, block) in volume.blocks.iter().enumerate() {
+            self.dilatations(volume, block, material, u, &mut sums)?;
+            energy += 0.5 * lambda * sums.theta.iter().map(|t| t * t).sum::<f64>();
+            if let Some((_, dyads)) = &mut sums.stiffness {
+                dyads.clear(block.nodes.len());
+            }
+            for (slot, &e) in block.elements.iter().enumerate() {
+                energy += self.at_given_tau(volume, block, slot, material, &mut sums);
+                let (nodes, _, gradients) = self.element(e);
+                let stiffness = sums.stiffness.as_mut().map_or(&[][..], |(sum, _)| sum.sum(gradients));
+                take(e, BulkForces { nodes, forces: &sums.forces, stiffness });
+            }
+            if let Some((_, dyads)) = &mut sums.stiffness {
+                let stiffness = dyads.sum(block.nodes.len(), lambda);
+                take(self.count() + k, BulkForces { nodes: &block.nodes, forces: &[], stiffness });
+            }
+        }
+        Some(energy)
+    }
+
+    /// Points and `theta` of a block.
+    fn dilatations(
+        &self,
+        volume: &Volume,
+        block: &Block,
+        material: &dyn Material,
+        u: &[Point],
+        sums: &mut Sums,
+    ) -> Option<()> {
+        let functions = sums.theta.len();
+        sums.points.clear();
+        sums.theta.fill(0.0);
+        for &e in &block.elements {
+            let (nodes, points, gradients) = self.element(e);
+            for (gradients, q) in gradients.chunks_exact(nodes.len()).zip(points) {
+                let f = deformation_gradient(nodes, gradients, u);
+                let dilatation = material.dilatation(&f)?;
+                for (theta, phi) in sums.theta.iter_mut().zip(&volume.values[q * functions..]) {
+                    *theta += self.weights[q] * phi * dilatation.value;
+                }
+                sums.points.push((f, dilatation));
+            }
+        }
+        Some(())
+    }
+
+    /// Forces and stiffness of an element of a block whose `theta` is known; energy without its volumetric part.
+    fn at_given_tau(
+        &self,
+        volume: &Volume,
+        block: &Block,
+        slot: usize,
+        material: &dyn Material,
+        sums: &mut Sums,
+    ) -> f64 {
+        let (nodes, points, gradients) = self.element(block.elements[slot]);
+        let (n, functions, lambda) = (nodes.len(), sums.theta.len(), material.lambda());
+        let states = &sums.points[slot * self.points_per_element..];
+        let mut energy = 0.0;
+        sums.forces.fill(Point::zeros());
+        for (s, ((gradients, q), (f, dilatation))) in gradients.chunks_exact(n).zip(points).zip(states).enumerate() {
+            let (w, phi) = (self.weights[q], &volume.values[q * functions..(q + 1) * functions]);
+            let tau = lambda * sums.theta.iter().zip(phi).map(|(theta, phi)| theta * phi).sum::<f64>();
+            let (rest, stress) = material.elastic(f, dilatation, tau);
+            energy += w * rest;
+            for (force, g) in sums.forces.iter_mut().zip(gradients) {
+                *force += stress * Point::new(g[0], g[1]) * w;
+            }
+            if let Some((stiffness, dyads)) = &mut sums.stiffness {
+                stiffness.set(s, &material.moduli(dilatation, tau), w);
+                for (g, &place) in gradients.iter().zip(&block.places[slot * n..]) {
+                    let d = dilatation.gradient * Point::new(g[0], g[1]) * w;
+                    phi.iter().enumerate().for_each(|(k, phi)| dyads.add(k, place, phi * d.x, phi * d.y));
+                }
+            }
+        }
+        energy
+    }
+
+    /// `tau` of the bodies with projected dilatations for the displacement `u`.
+    pub fn tau(&self, material: &dyn Material, u: &[Point]) -> Tau<'_> {
+        let Some(volume) = &self.volume else { return Tau { field: None } };
+        let mut sums = Sums::new(self, volume, false);
+        let of_block = |block: &Block| -> Vec<f64> {
+            let found = self.dilatations(volume, block, material, u, &mut sums);
+            sums.theta.iter().map(|theta| found.map_or(f64::NAN, |()| material.lambda() * theta)).collect()
+        };
+        let values = volume.blocks.iter().map(of_block).collect();
+        Tau { field: Some((volume, values)) }
+    }
+}
+
+/// The stress that resists the change of volume, `tau = lambda P theta`, as a field over a body.
+pub struct Tau<'a> {
+    field: Option<(&'a Volume, Vec<Vec<f64>>)>,
+}
+
+impl Tau<'_> {
+    /// At the parameters `uv` of an element `[i, j]`; `None` where the deformation of that point alone says it, NaN where a
+    /// block holds a point without a state.
+    pub fn at(&self, element: [usize; 2], uv: [f64; 2]) -> Option<f64> {
+        let (volume, values) = self.field.as_ref()?;
+        let (block, phi) = volume.at(element, uv);
+        Some(phi.iter().zip(&values[block]).map(|(phi, tau)| phi * tau).sum())
+    }
+}

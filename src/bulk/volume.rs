@@ -1,0 +1,174 @@
+//! Near incompressibility: the dilatation of the volumetric energy is projected onto a coarser space.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::geometry::Patch;
+
+/// A space of dilatations without continuity: on each block of elements the polynomials of a total degree, in the
+/// parameters of the patch.
+///
+/// With `theta(F)` of [`Material`](super::Material) and the projection `P` onto this space in `L2` of the reference body the
+/// strain energy is
+///
+/// ```text
+/// W = int psi_rest(F) + lambda/2 (P theta)^2 dX,       tau = lambda P theta
+/// ```
+///
+/// the mixed form of displacement and `tau`, `tau` eliminated block by block. `P` is self-adjoint: the internal forces
+/// `dW = int (d psi_rest/dF + tau d theta/dF) : dF dX` are its exact gradient, and with an orthonormal basis `phi_k`
+///
+/// ```text
+/// d2W = int dF : (d2 psi_rest + tau d2 theta) : DF dX  +  lambda sum_k (int phi_k d theta dX)(int phi_k D theta dX)
+/// ```
+///
+/// is symmetric. A uniform deformation has a uniform `theta = P theta` and keeps its energy and stress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VolumeSpace {
+    /// Elements of a block along each direction (one more where their number is no multiple).
+    pub block: usize,
+    /// Total degree.
+    pub degree: usize,
+}
+
+impl VolumeSpace {
+    /// The space for a patch of a material with this Poisson's ratio, if it needs one.
+    pub fn needed(patch: &Patch, poissons_ratio: f64) -> Option<Self> {
+        let degree = patch.basis[0].degree();
+        (poissons_ratio >= 0.45).then_some(Self { block: 1, degree: degree - 1 })
+    }
+
+    /// Functions on a block.
+    pub fn functions(&self) -> usize {
+        (self.degree + 1) * (self.degree + 2) / 2
+    }
+
+    /// Products of Legendre polynomials of the parameters, scaled to `[-1, 1]` on a block.
+    fn products(&self, [[u0, u1], [v0, v1]]: [[f64; 2]; 2], [u, v]: [f64; 2], out: &mut Vec<f64>) {
+        let [s, t] = [(u, u0, u1), (v, v0, v1)].map(|(x, a, b)| (2.0 * x - a - b) / (b - a));
+        out.clear();
+        for total in 0..=self.degree {
+            out.extend((0..=total).map(|k| legendre(total - k, s) * legendre(k, t)));
+        }
+    }
+}
+
+fn legendre(degree: usize, x: f64) -> f64 {
+    let (mut last, mut value) = (0.0, 1.0);
+    for k in 0..degree {
+        let k = k as f64;
+        (last, value) = (value, ((2.0 * k + 1.0) * x * value - k * last) / (k + 1.0));
+    }
+    value
+}
+
+/// One block of elements.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    pub elements: Vec<usize>,
+    pub nodes: Vec<usize>,
+    /// For each element, the place of its nodes among those of the block.
+    pub places: Vec<usize>,
+    /// Parameters.
+    range: [[f64; 2]; 2],
+    /// `phi_k = sum_l coefficients[k, l] product_l`.
+    coefficients: DMatrix<f64>,
+}
+
+/// The space on the elements of a patch.
+#[derive(Clone, Debug)]
+pub(super) struct Volume {
+    pub space: VolumeSpace,
+    pub blocks: Vec<Block>,
+    /// `phi_k`, ordered element, quadrature point, function.
+    pub values: Vec<f64>,
+    /// Block of each element.
+    home: Vec<usize>,
+    /// Elements in a row.
+    row: usize,
+}
+
+/// What the elements of a patch are to their blocks.
+pub(super) struct Points<'a> {
+    pub nodes: &'a [usize],
+    pub nodes_per_element: usize,
+    /// Parameters of the quadrature points, element by element.
+    pub parameters: &'a [[f64; 2]],
+    pub weights: &'a [f64],
+    pub per_element: usize,
+}
+
+impl Volume {
+    pub fn new(patch: &Patch, space: VolumeSpace, points: &Points) -> Self {
+        let [nu, nv] = patch.elements();
+        let parts = [nu, nv].map(|n| parts(n, space.block));
+        let mut home = vec![0; nu * nv];
+        let mut blocks = vec![];
+        let mut values = vec![0.0; points.weights.len() * space.functions()];
+        for (v, u) in parts[1].iter().flat_map(|v| parts[0].iter().map(move |u| (v, u))) {
+            let elements: Vec<usize> = v.clone().flat_map(|j| u.clone().map(move |i| i + j * nu)).collect();
+            elements.iter().for_each(|&e| home[e] = blocks.len());
+            let ends = [patch.span_box([u.start, v.start]), patch.span_box([u.end - 1, v.end - 1])];
+            let range = [0, 1].map(|d| [ends[0][d][0], ends[1][d][1]]);
+            blocks.push(Block::new(elements, range, space, points, &mut values));
+        }
+        Self { space, blocks, values, home, row: nu }
+    }
+
+    /// Block of an element and its functions at the parameters `uv`.
+    pub fn at(&self, [i, j]: [usize; 2], uv: [f64; 2]) -> (usize, Vec<f64>) {
+        let home = self.home[i + j * self.row];
+        let (block, mut products) = (&self.blocks[home], vec![]);
+        self.space.products(block.range, uv, &mut products);
+        (home, (&block.coefficients * DVector::from_vec(products)).as_slice().to_vec())
+    }
+}
+
+/// `n` elements in blocks of `size`; where some are left over the blocks in the middle are larger by one.
+fn parts(n: usize, size: usize) -> Vec<std::ops::Range<usize>> {
+    let count = (n / size).max(1);
+    let (length, larger) = (n / count, n % count);
+    let first = (count - larger) / 2;
+    let start = |k: usize| k * length + k.saturating_sub(first).min(larger);
+    (0..count).map(|k| start(k)..start(k + 1)).collect()
+}
+
+impl Block {
+    fn new(
+        elements: Vec<usize>,
+        range: [[f64; 2]; 2],
+        space: VolumeSpace,
+        points: &Points,
+        values: &mut [f64],
+    ) -> Self {
+        let n = points.nodes_per_element;
+        let of = |e: usize| &points.nodes[e * n..(e + 1) * n];
+        let mut nodes: Vec<usize> = elements.iter().flat_map(|&e| of(e)).copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let place = |a: &usize| nodes.partition_point(|b| b < a);
+        let places = elements.iter().flat_map(|&e| of(e)).map(place).collect();
+        let at = || elements.iter().flat_map(|&e| e * points.per_element..(e + 1) * points.per_element);
+        let (mut products, mut table) = (vec![], vec![]);
+        for q in at() {
+            space.products(range, points.parameters[q], &mut products);
+            table.push((products.clone(), points.weights[q]));
+        }
+        let coefficients = orthonormal(space.functions(), &table);
+        for (q, (products, _)) in at().zip(&table) {
+            let phi = &coefficients * DVector::from_column_slice(products);
+            values[q * phi.len()..(q + 1) * phi.len()].copy_from_slice(phi.as_slice());
+        }
+        Self { elements, nodes, places, range, coefficients }
+    }
+}
+
+/// Inverse of the Cholesky factor of the mass matrix: rows are orthonormal functions.
+fn orthonormal(count: usize, table: &[(Vec<f64>, f64)]) -> DMatrix<f64> {
+    let mut mass = DMatrix::zeros(count, count);
+    for (products, w) in table {
+        let column = DVector::from_column_slice(products);
+        mass.ger(*w, &column, &column, 1.0);
+    }
+    let factor = mass.cholesky().expect("as many quadrature points as functions, on a body of positive area").l();
+    factor.solve_lower_triangular(&DMatrix::identity(count, count)).expect("a regular factor")
+}
