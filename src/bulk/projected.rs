@@ -16,7 +16,10 @@ struct Sums {
     theta: Vec<f64>,
     /// Nodal forces of one element.
     forces: Vec<Point>,
-    /// Stiffness at constant `tau` of one element, and `lambda sum_k b_k b_k^T` of the block with `b_k = int phi_k d theta dX`.
+    /// `b_k = int phi_k d theta dX` of one element, nodes in a row, and `w d theta` at one point.
+    vectors: Vec<Point>,
+    vector: Vec<Point>,
+    /// Stiffness at constant `tau` of one element, and `lambda sum_k b_k b_k^T` of the block.
     stiffness: Option<(Stiffness, Dyads)>,
 }
 
@@ -30,6 +33,8 @@ impl Sums {
             points: Vec::with_capacity(points * largest(|block| block.elements.len())),
             theta: vec![0.0; functions],
             forces: vec![Point::zeros(); nodes],
+            vectors: vec![Point::zeros(); nodes * functions],
+            vector: vec![Point::zeros(); nodes],
             stiffness: stiffness.then(|| (Stiffness::new(nodes, points), dyads())),
         }
     }
@@ -108,6 +113,7 @@ impl Elements {
         let states = &sums.points[slot * self.points_per_element..];
         let mut energy = 0.0;
         sums.forces.fill(Point::zeros());
+        sums.vectors.fill(Point::zeros());
         for (s, ((gradients, q), (f, dilatation))) in gradients.chunks_exact(n).zip(points).zip(states).enumerate() {
             let (w, phi) = (self.weights[q], &volume.values[q * functions..(q + 1) * functions]);
             let tau = lambda * sums.theta.iter().zip(phi).map(|(theta, phi)| theta * phi).sum::<f64>();
@@ -116,12 +122,20 @@ impl Elements {
             for (force, g) in sums.forces.iter_mut().zip(gradients) {
                 *force += stress * Point::new(g[0], g[1]) * w;
             }
-            if let Some((stiffness, dyads)) = &mut sums.stiffness {
+            if let Some((stiffness, _)) = &mut sums.stiffness {
                 stiffness.set(s, &material.moduli(dilatation, tau), w);
-                for (g, &place) in gradients.iter().zip(&block.places[slot * n..]) {
-                    let d = dilatation.gradient * Point::new(g[0], g[1]) * w;
-                    phi.iter().enumerate().for_each(|(k, phi)| dyads.add(k, place, phi * d.x, phi * d.y));
+                for (d, g) in sums.vector.iter_mut().zip(gradients) {
+                    *d = dilatation.gradient * Point::new(g[0], g[1]) * w;
                 }
+                for (vector, phi) in sums.vectors.chunks_exact_mut(n).zip(phi) {
+                    vector.iter_mut().zip(&sums.vector).for_each(|(b, d)| *b += d * *phi);
+                }
+            }
+        }
+        if let Some((_, dyads)) = &mut sums.stiffness {
+            for (k, vector) in sums.vectors.chunks_exact(n).enumerate() {
+                let places = &block.places[slot * n..(slot + 1) * n];
+                places.iter().zip(vector).for_each(|(&place, b)| dyads.add(k, place, b));
             }
         }
         energy

@@ -1,5 +1,7 @@
 //! The inner loops of the element stiffness `K_aibk = sum_q w dN_a,J A_iJkL dN_b,L`.
 
+use crate::geometry::Point;
+
 /// Nodes that are treated at once.
 const LANES: usize = 4;
 
@@ -116,10 +118,10 @@ impl Dyads {
     }
 
     /// Adds to vector `k` at a node.
-    pub fn add(&mut self, k: usize, node: usize, x: f64, y: f64) {
-        let group = &mut self.vectors[k * self.groups + node / LANES];
-        group[0][node % LANES] += x;
-        group[1][node % LANES] += y;
+    pub fn add(&mut self, k: usize, node: usize, value: &Point) {
+        let [x, y] = &mut self.vectors[k * self.groups + node / LANES];
+        x[node % LANES] += value.x;
+        y[node % LANES] += value.y;
     }
 
     /// The sum over all vectors, for `nodes` nodes.

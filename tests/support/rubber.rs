@@ -161,23 +161,24 @@ fn add(builder: &mut Builder, name: &str, patch: Patch, nu: f64, choice: Choice)
     added.map(drop).expect("a valid patch");
 }
 
-/// Deflection of Cook's membrane (48 wide, 44 to 60 high, left edge held) whose right edge, moving as one piece in y and
-/// free in x, is pushed up by a force of 1/100 of `E` times its height.
+/// Deflection of Cook's membrane (48 wide, 44 to 60 high, left edge held) whose right edge moves as one piece in y, free in
+/// x, under a force of 1/100 of `E` times its height: found from the force that a given deflection takes.
 pub fn cook(basis: BasisSpec, nu: f64, n: usize, choice: Choice) -> f64 {
     let line = vec![0.0, 0.0, 1.0, 1.0];
     let points = vec![[0.0, 0.0], [48.0, 44.0], [0.0, 44.0], [48.0, 60.0]];
     let shape = ShapeSpec::Nurbs(Nurbs { degrees: [1, 1], knots: [line.clone(), line], points, weights: None });
     let patch = build(&shape, &basis, [n, n], None, [0.0; 2], Path::new(".")).expect("a membrane");
+    let right = patch.boundary(Edge::Right).nodes;
     let mut builder = Builder::default();
     add(&mut builder, "membrane", patch, nu, choice);
     let built = (|| {
         let held = || Control::Displacement(Table::constant(0.0));
         builder.motion("membrane", Edge::Left, 0, held(), false)?.motion("membrane", Edge::Left, 1, held(), false)?;
-        builder.motion("membrane", Edge::Right, 1, Control::Force(Table::constant(0.16)), true)?;
+        builder.motion("membrane", Edge::Right, 1, Control::Displacement(Table::constant(1.0)), true)?;
         builder.build()
     })();
-    let (state, _) = solve(&built.expect("a valid model"));
-    state.u.last().expect("control points").y
+    let (_, found) = solve(&built.expect("a valid model"));
+    0.16 / right.iter().map(|&i| found.forces[i].y).sum::<f64>()
 }
 
 fn solve(model: &Model) -> (State, Evaluation) {
