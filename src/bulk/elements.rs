@@ -34,7 +34,7 @@ pub struct BulkForces<'a> {
 }
 
 impl Elements {
-    /// Gauss points: `degree + 1` in each direction.
+    /// Gauss points: `degree + 1` in each direction. `volume`: space of the dilatations, `None` for each point its own.
     ///
     /// Returns `None` where the map from parameters to the reference body is not invertible (Jacobian not positive).
     pub fn new(patch: &Patch, volume: Option<VolumeSpace>) -> Option<Self> {
@@ -98,12 +98,12 @@ impl Elements {
         self.nodes.len() / self.nodes_per_element
     }
 
-    /// Number of elements and of blocks with a common dilatation.
+    /// Number of elements, and of blocks of elements that are coupled by common dilatations: see [`Self::integrate`].
     pub fn cliques(&self) -> usize {
         self.count() + self.volume.as_ref().map_or(0, |volume| volume.blocks.len())
     }
 
-    /// Control points of element `e`, or of block `e - count`.
+    /// Control points of element `e`, or of the block of that number less the number of elements.
     pub fn nodes(&self, e: usize) -> &[usize] {
         if e >= self.count() {
             self.volume.as_ref().map_or(&[], |v| &v.blocks[e - self.count()].nodes)
@@ -118,6 +118,11 @@ impl Elements {
         (&self.nodes[e * n..(e + 1) * n], e * m..(e + 1) * m, &self.gradients[e * n * m..(e + 1) * n * m])
     }
 
+    /// The space of dilatations, where they are projected.
+    pub fn volume(&self) -> Option<VolumeSpace> {
+        self.volume.as_ref().map(|volume| volume.space)
+    }
+
     /// Reference area of the body.
     pub fn area(&self) -> f64 {
         self.weights.iter().sum()
@@ -129,7 +134,8 @@ impl Elements {
         place(i, j)
     }
 
-    /// Integrates all elements for the displacement `u` of the control points and hands each to `take`.
+    /// Integrates all elements for the displacement `u` of the control points and hands each to `take`. Blocks with common
+    /// dilatations follow behind their elements: they add stiffness alone and are numbered behind all elements.
     /// Returns the strain energy, or `None` where `det F <= 0` somewhere.
     pub fn integrate(
         &self,

@@ -54,49 +54,48 @@ pub trait Material: Debug + Send + Sync {
     /// Name in the scene.
     fn name(&self) -> &'static str;
 
-    /// Lame's `lambda`.
-    fn lambda(&self) -> f64 {
-        lame(self.youngs_modulus(), self.poissons_ratio()).0
-    }
-
-    /// `lambda + 2 mu`: stiffness against a stretch without lateral strain.
-    fn p_wave_modulus(&self) -> f64 {
-        let (lambda, mu) = lame(self.youngs_modulus(), self.poissons_ratio());
-        lambda + 2.0 * mu
+    /// Lame's constants `(lambda, mu)`.
+    fn lame(&self) -> (f64, f64) {
+        lame(self.youngs_modulus(), self.poissons_ratio())
     }
 
     /// Stress, tangent and energy for the in-plane deformation gradient `f`; `None` where the material does not exist.
     fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse> {
         let dilatation = self.dilatation(f)?;
-        let (lambda, Dilatation { value, gradient: g }) = (self.lambda(), dilatation);
+        let (lambda, Dilatation { value, gradient: g }) = (self.lame().0, dilatation);
         let (rest, stress) = self.elastic(f, &dilatation, lambda * value);
         let mut tangent = self.moduli(&dilatation, lambda * value);
-        let g = [g[(0, 0)], g[(0, 1)], g[(1, 0)], g[(1, 1)]];
-        for (line, row) in tangent.iter_mut().zip(g) {
-            for (entry, column) in line.iter_mut().zip(g) {
-                *entry += lambda * row * column;
-            }
-        }
+        add_dyad(&mut tangent, lambda, &g);
         Some(StressResponse { energy: rest + 0.5 * lambda * value * value, stress, tangent })
     }
 
     /// Energy and stress of [`Self::response`] without the tangent.
     fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
         let dilatation = self.dilatation(f)?;
-        let (lambda, theta) = (self.lambda(), dilatation.value);
+        let (lambda, theta) = (self.lame().0, dilatation.value);
         let (rest, stress) = self.elastic(f, &dilatation, lambda * theta);
         Some((rest + 0.5 * lambda * theta * theta, stress))
     }
 
-    /// Cauchy stress `xx, yy, zz, xy` with the given `tau` (of the point itself if `None`); at finite strain `P F^T / det F`.
+    /// Cauchy stress `xx, yy, zz, xy`, where `tau` follows from the dilatation; at finite strain `P F^T / det F`.
     ///
     /// In plane strain nothing but the dilatation acts out of the plane: `sigma_zz = tau / det F`, `tau` at small strain.
-    fn cauchy(&self, f: &Matrix2<f64>, tau: Option<f64>) -> Option<[f64; 4]> {
+    fn cauchy(&self, f: &Matrix2<f64>, tau: &dyn Fn(f64) -> f64) -> Option<[f64; 4]> {
         let dilatation = self.dilatation(f)?;
-        let tau = tau.unwrap_or(self.lambda() * dilatation.value);
+        let tau = tau(dilatation.value);
         let (_, stress) = self.elastic(f, &dilatation, tau);
         let (s, j) = if self.small_strain() { (stress, 1.0) } else { (stress * f.transpose(), f.determinant()) };
         Some([s[(0, 0)], s[(1, 1)], tau, s[(0, 1)]].map(|v| v / j))
+    }
+}
+
+/// Adds `factor g x g` to moduli.
+pub(super) fn add_dyad(moduli: &mut [[f64; 4]; 4], factor: f64, g: &Matrix2<f64>) {
+    let g = [g[(0, 0)], g[(0, 1)], g[(1, 0)], g[(1, 1)]];
+    for (line, row) in moduli.iter_mut().zip(g) {
+        for (entry, column) in line.iter_mut().zip(g) {
+            *entry += factor * row * column;
+        }
     }
 }
 
@@ -136,12 +135,12 @@ impl Material for NeoHookean {
         &Dilatation { value, gradient: t }: &Dilatation,
         tau: f64,
     ) -> (f64, Matrix2<f64>) {
-        let (_, mu) = lame(self.youngs_modulus, self.poissons_ratio);
+        let (_, mu) = self.lame();
         (0.5 * mu * (f.norm_squared() - 2.0 - 2.0 * value), (f - t) * mu + t * tau)
     }
 
     fn moduli(&self, Dilatation { gradient: t, .. }: &Dilatation, tau: f64) -> [[f64; 4]; 4] {
-        let (_, mu) = lame(self.youngs_modulus, self.poissons_ratio);
+        let (_, mu) = self.lame();
         let geometric = mu - tau;
         let mut moduli = [[0.0; 4]; 4];
         for (row, line) in moduli.iter_mut().enumerate() {
@@ -184,13 +183,13 @@ impl Material for LinearElastic {
     }
 
     fn elastic(&self, f: &Matrix2<f64>, _: &Dilatation, tau: f64) -> (f64, Matrix2<f64>) {
-        let (_, mu) = lame(self.youngs_modulus, self.poissons_ratio);
+        let (_, mu) = self.lame();
         let strain = (f + f.transpose()) * 0.5 - Matrix2::identity();
         (mu * strain.norm_squared(), Matrix2::identity() * tau + strain * (2.0 * mu))
     }
 
     fn moduli(&self, _: &Dilatation, _: f64) -> [[f64; 4]; 4] {
-        let (_, mu) = lame(self.youngs_modulus, self.poissons_ratio);
+        let (_, mu) = self.lame();
         [[2.0 * mu, 0.0, 0.0, 0.0], [0.0, mu, mu, 0.0], [0.0, mu, mu, 0.0], [0.0, 0.0, 0.0, 2.0 * mu]]
     }
 

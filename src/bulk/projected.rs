@@ -3,9 +3,9 @@
 use nalgebra::Matrix2;
 
 use super::elements::{BulkForces, Elements, deformation_gradient};
-use super::material::{Dilatation, Material};
+use super::material::{Dilatation, Material, add_dyad};
 use super::stiffness::{Dyads, Stiffness};
-use super::volume::{Block, Volume};
+use super::volume::{Block, POINTWISE, Volume};
 use crate::geometry::Point;
 
 /// What is kept of one block while it is integrated.
@@ -19,7 +19,7 @@ struct Sums {
     /// `b_k = int phi_k d theta dX` of one element, nodes in a row, and `w d theta` at one point.
     vectors: Vec<Point>,
     vector: Vec<Point>,
-    /// Stiffness at constant `tau` of one element, and `lambda sum_k b_k b_k^T` of the block.
+    /// Stiffness of one element at constant `P theta`, and `lambda_P sum_k b_k b_k^T` of the block.
     stiffness: Option<(Stiffness, Dyads)>,
 }
 
@@ -40,8 +40,15 @@ impl Sums {
     }
 }
 
+/// `lambda_0` and `lambda_P`.
+fn parts(material: &dyn Material) -> [f64; 2] {
+    let (lambda, mu) = material.lame();
+    let pointwise = lambda.min(POINTWISE * mu);
+    [pointwise, lambda - pointwise]
+}
+
 impl Elements {
-    /// As [`Elements::integrate`]; blocks are handed over behind their elements and have a stiffness only.
+    /// [`Elements::integrate`] block by block.
     pub(super) fn integrate_projected(
         &self,
         volume: &Volume,
@@ -50,12 +57,12 @@ impl Elements {
         stiffness: bool,
         mut take: impl FnMut(usize, BulkForces),
     ) -> Option<f64> {
-        let lambda = material.lambda();
+        let [_, shared] = parts(material);
         let mut sums = Sums::new(self, volume, stiffness);
         let mut energy = 0.0;
         for (k, block) in volume.blocks.iter().enumerate() {
             self.dilatations(volume, block, material, u, &mut sums)?;
-            energy += 0.5 * lambda * sums.theta.iter().map(|t| t * t).sum::<f64>();
+            energy += 0.5 * shared * sums.theta.iter().map(|t| t * t).sum::<f64>();
             if let Some((_, dyads)) = &mut sums.stiffness {
                 dyads.clear(block.nodes.len());
             }
@@ -66,7 +73,7 @@ impl Elements {
                 take(e, BulkForces { nodes, forces: &sums.forces, stiffness });
             }
             if let Some((_, dyads)) = &mut sums.stiffness {
-                let stiffness = dyads.sum(block.nodes.len(), lambda);
+                let stiffness = dyads.sum(block.nodes.len(), shared);
                 take(self.count() + k, BulkForces { nodes: &block.nodes, forces: &[], stiffness });
             }
         }
@@ -99,7 +106,7 @@ impl Elements {
         Some(())
     }
 
-    /// Forces and stiffness of an element of a block whose `theta` is known; energy without its volumetric part.
+    /// Forces and stiffness of an element of a block whose `theta` is known; energy without the projected part.
     fn at_given_tau(
         &self,
         volume: &Volume,
@@ -109,21 +116,25 @@ impl Elements {
         sums: &mut Sums,
     ) -> f64 {
         let (nodes, points, gradients) = self.element(block.elements[slot]);
-        let (n, functions, lambda) = (nodes.len(), sums.theta.len(), material.lambda());
+        let (n, functions) = (nodes.len(), sums.theta.len());
+        let [pointwise, shared] = parts(material);
         let states = &sums.points[slot * self.points_per_element..];
         let mut energy = 0.0;
         sums.forces.fill(Point::zeros());
         sums.vectors.fill(Point::zeros());
         for (s, ((gradients, q), (f, dilatation))) in gradients.chunks_exact(n).zip(points).zip(states).enumerate() {
             let (w, phi) = (self.weights[q], &volume.values[q * functions..(q + 1) * functions]);
-            let tau = lambda * sums.theta.iter().zip(phi).map(|(theta, phi)| theta * phi).sum::<f64>();
+            let projected = sums.theta.iter().zip(phi).map(|(theta, phi)| theta * phi).sum::<f64>();
+            let tau = pointwise * dilatation.value + shared * projected;
             let (rest, stress) = material.elastic(f, dilatation, tau);
-            energy += w * rest;
+            energy += w * (rest + 0.5 * pointwise * dilatation.value * dilatation.value);
             for (force, g) in sums.forces.iter_mut().zip(gradients) {
                 *force += stress * Point::new(g[0], g[1]) * w;
             }
             if let Some((stiffness, _)) = &mut sums.stiffness {
-                stiffness.set(s, &material.moduli(dilatation, tau), w);
+                let mut moduli = material.moduli(dilatation, tau);
+                add_dyad(&mut moduli, pointwise, &dilatation.gradient);
+                stiffness.set(s, &moduli, w);
                 for (d, g) in sums.vector.iter_mut().zip(gradients) {
                     *d = dilatation.gradient * Point::new(g[0], g[1]) * w;
                 }
@@ -141,30 +152,36 @@ impl Elements {
         energy
     }
 
-    /// `tau` of the bodies with projected dilatations for the displacement `u`.
+    /// The part of `tau` that is no matter of the point alone, for the displacement `u`.
     pub fn tau(&self, material: &dyn Material, u: &[Point]) -> Tau<'_> {
-        let Some(volume) = &self.volume else { return Tau { field: None } };
+        let [pointwise, shared] = parts(material);
+        let Some(volume) = &self.volume else { return Tau { pointwise: material.lame().0, field: None } };
         let mut sums = Sums::new(self, volume, false);
         let of_block = |block: &Block| -> Vec<f64> {
             let found = self.dilatations(volume, block, material, u, &mut sums);
-            sums.theta.iter().map(|theta| found.map_or(f64::NAN, |()| material.lambda() * theta)).collect()
+            sums.theta.iter().map(|theta| found.map_or(f64::NAN, |()| shared * theta)).collect()
         };
         let values = volume.blocks.iter().map(of_block).collect();
-        Tau { field: Some((volume, values)) }
+        Tau { pointwise, field: Some((volume, values)) }
     }
 }
 
-/// The stress that resists the change of volume, `tau = lambda P theta`, as a field over a body.
+/// The stress that resists the change of volume, as a field over a body.
 pub struct Tau<'a> {
+    /// `lambda_0`, or `lambda` without projection.
+    pointwise: f64,
+    /// `lambda_P P theta`: coefficients of each block.
     field: Option<(&'a Volume, Vec<Vec<f64>>)>,
 }
 
 impl Tau<'_> {
-    /// At the parameters `uv` of an element `[i, j]`; `None` where the deformation of that point alone says it, NaN where a
-    /// block holds a point without a state.
-    pub fn at(&self, element: [usize; 2], uv: [f64; 2]) -> Option<f64> {
-        let (volume, values) = self.field.as_ref()?;
-        let (block, phi) = volume.at(element, uv);
-        Some(phi.iter().zip(&values[block]).map(|(phi, tau)| phi * tau).sum())
+    /// At the parameters `uv` of an element `[i, j]` where the dilatation is `theta`; NaN in a block that holds a point without
+    /// a state.
+    pub fn at(&self, element: [usize; 2], uv: [f64; 2], theta: f64) -> f64 {
+        let projected = self.field.as_ref().map_or(0.0, |(volume, values)| {
+            let (block, phi) = volume.at(element, uv);
+            phi.iter().zip(&values[block]).map(|(phi, tau)| phi * tau).sum()
+        });
+        self.pointwise * theta + projected
     }
 }

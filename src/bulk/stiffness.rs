@@ -206,4 +206,23 @@ mod tests {
             }
         }
     }
+
+    /// As above, of one set of vectors after another of a different number of nodes.
+    #[test]
+    fn dyads_hold_the_plain_sum() {
+        let noise = |k: usize| ((k * 7919) % 1009) as f64 / 504.5 - 1.0;
+        let mut dyads = Dyads::new(16, 3);
+        for nodes in [16, 9, 6] {
+            let vector = |k: usize, i: usize| noise(100 * k + i);
+            dyads.clear(nodes);
+            for (k, a) in (0..3).flat_map(|k| (0..nodes).map(move |a| (k, a))) {
+                dyads.add(k, a, &Point::new(vector(k, 2 * a), vector(k, 2 * a + 1)));
+            }
+            let found = dyads.sum(nodes, 2.5).to_vec();
+            for (i, j) in (0..2 * nodes).flat_map(|i| (0..2 * nodes).map(move |j| (i, j))) {
+                let expected: f64 = (0..3).map(|k| 2.5 * vector(k, i) * vector(k, j)).sum();
+                assert!((found[place(i, j)] - expected).abs() < 1e-12, "{nodes} nodes, ({i}, {j})");
+            }
+        }
+    }
 }

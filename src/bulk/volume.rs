@@ -1,27 +1,44 @@
 //! Near incompressibility: the dilatation of the volumetric energy is projected onto a coarser space.
 
+use std::fmt;
+
 use nalgebra::{DMatrix, DVector};
 
+use super::Material;
 use crate::geometry::Patch;
+
+/// Poisson's ratio up to which a material does without: the errors of the pressure are then those of `nu = 0.3`
+/// (papers/incompressible).
+const PLAIN: f64 = 0.4;
+
+/// `lambda/mu` at [`PLAIN`]: the share of `lambda` that acts on the dilatation of each point.
+pub(super) const POINTWISE: f64 = 2.0 * PLAIN / (1.0 - 2.0 * PLAIN);
 
 /// A space of dilatations without continuity: on each block of elements the polynomials of a total degree, in the
 /// parameters of the patch.
 ///
-/// With `theta(F)` of [`Material`](super::Material) and the projection `P` onto this space in `L2` of the reference body the
-/// strain energy is
+/// With `theta(F)` of [`Material`], the projection `P` onto this space in `L2` of the reference body, and
+/// `lambda = lambda_0 + lambda_P`, `lambda_0 = min(lambda, 4 mu)`, the strain energy is
 ///
 /// ```text
-/// W = int psi_rest(F) + lambda/2 (P theta)^2 dX,       tau = lambda P theta
+/// W = int psi_rest(F) + lambda_0/2 theta^2 + lambda_P/2 (P theta)^2 dX,       tau = lambda_0 theta + lambda_P P theta
 /// ```
 ///
-/// the mixed form of displacement and `tau`, `tau` eliminated block by block. `P` is self-adjoint: the internal forces
-/// `dW = int (d psi_rest/dF + tau d theta/dF) : dF dX` are its exact gradient, and with an orthonormal basis `phi_k`
+/// the mixed form of displacement and pressure with the pressure eliminated block by block. The first term is the
+/// material at `nu = 0.4`, which does not lock; it lets `tau` vary inside a block and makes the step at 0.4 continuous.
+/// `P` is self-adjoint: the internal forces `dW = int (d psi_rest/dF + tau d theta/dF) : dF dX` are the exact gradient, and
+/// with an orthonormal basis `phi_k` the second derivative is symmetric:
 ///
 /// ```text
-/// d2W = int dF : (d2 psi_rest + tau d2 theta) : DF dX  +  lambda sum_k (int phi_k d theta dX)(int phi_k D theta dX)
+/// d2W = int dF : [d2 psi_rest + tau d2 theta + lambda_0 d theta x d theta] : DF dX
+///       + lambda_P sum_k (int phi_k d theta dX)(int phi_k D theta dX)
 /// ```
 ///
-/// is symmetric. A uniform deformation has a uniform `theta = P theta` and keeps its energy and stress.
+/// A uniform deformation has `theta = P theta` and keeps its energy and stress. Near incompressibility a space is free of
+/// oscillating pressures if it is small enough for the inf-sup condition: of splines of degree `p` it holds, independent
+/// of `h`, on blocks of 4 x 4 elements with quadratics for `p = 2, 3, 4` and of 2 x 2 with constants for `p = 1`, not for
+/// instance of one element with constants (any `p`: a checkerboard), of 2 x 2 with linears (`p = 2, 4`), of 4 x 4 with
+/// cubics (`p = 4`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VolumeSpace {
     /// Elements of a block along each direction (one more where their number is no multiple).
@@ -30,11 +47,34 @@ pub struct VolumeSpace {
     pub degree: usize,
 }
 
+impl fmt::Display for VolumeSpace {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let functions = ["constants", "linears", "quadratics"].get(self.degree).copied();
+        match functions {
+            Some(name) => write!(f, "{name}")?,
+            None => write!(f, "polynomials of degree {}", self.degree)?,
+        }
+        write!(f, " on {0} x {0} elements", self.block)
+    }
+}
+
 impl VolumeSpace {
-    /// The space for a patch of a material with this Poisson's ratio, if it needs one.
-    pub fn needed(patch: &Patch, poissons_ratio: f64) -> Option<Self> {
-        let degree = patch.basis[0].degree();
-        (poissons_ratio >= 0.45).then_some(Self { block: 1, degree: degree - 1 })
+    /// The space for a patch of a material, if Poisson's ratio is above 0.4. Quadratic Lagrange elements have enough
+    /// functions of their own for linear dilatations.
+    pub fn needed(patch: &Patch, material: &dyn Material) -> Option<Self> {
+        let basis = &patch.basis;
+        let lowest = basis[0].degree().min(basis[1].degree());
+        let (block, degree) = match (lowest, basis[0].name()) {
+            (1, _) => (2, 0),
+            (_, "lagrange") => (1, 1),
+            _ => (4, 2),
+        };
+        Self::asked_by(material).then_some(Self { block, degree })
+    }
+
+    /// Whether a material asks for a space.
+    pub fn asked_by(material: &dyn Material) -> bool {
+        material.poissons_ratio() > PLAIN
     }
 
     /// Functions on a block.

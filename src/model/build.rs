@@ -103,7 +103,7 @@ impl Builder {
     /// [`ModelError::Folded`] where the patch is not invertible.
     pub fn body(&mut self, name: &str, spec: BodySpec) -> Result<&mut Self, ModelError> {
         let volume = match &spec {
-            BodySpec::Deformable(patch, material) => VolumeSpace::needed(patch, material.poissons_ratio()),
+            BodySpec::Deformable(patch, material) => VolumeSpace::needed(patch, material.as_ref()),
             BodySpec::Rigid(_) => None,
         };
         self.body_in(name, spec, volume)
@@ -183,7 +183,7 @@ impl Builder {
             pairs.push(pair);
         }
         let materials = || self.bodies.iter().filter_map(Body::material);
-        let confinement = |m: &Arc<dyn Material>| m.p_wave_modulus() / m.youngs_modulus();
+        let confinement = |m: &Arc<dyn Material>| (m.lame().0 + 2.0 * m.lame().1) / m.youngs_modulus();
         let driven = self.motions.iter().find(|m| m.drive).map(|m| m.body);
         Ok(Model {
             stride: pairs.iter().flat_map(|p| [&p.nonmortar, &p.mortar]).fold(f64::INFINITY, |m, side| {

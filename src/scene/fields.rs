@@ -22,7 +22,7 @@ fn fields<'a>(body: &'a Body, u: &'a [Point]) -> Vec<BodyField<'a>> {
                 displacement: u,
                 stress: Box::new(move |element, uv| {
                     let f = deformation_gradient(patch, &deformed, element, uv);
-                    sample(material.as_ref(), f, tau.at(element, uv))
+                    sample(material.as_ref(), f, &|theta| tau.at(element, uv, theta))
                 }),
             }]
         }
@@ -50,7 +50,7 @@ fn deformation_gradient(patch: &Patch, deformed: &Patch, element: [usize; 2], uv
 }
 
 /// Undefined also where the body is inverted.
-fn sample(material: &dyn Material, f: Option<Matrix2<f64>>, tau: Option<f64>) -> CauchySample {
+fn sample(material: &dyn Material, f: Option<Matrix2<f64>>, tau: &dyn Fn(f64) -> f64) -> CauchySample {
     match f.and_then(|f| Some((f, material.cauchy(&f, tau)?))) {
         Some((f, stress)) => CauchySample { stress, det_f: f.determinant() },
         None => CauchySample { stress: [f64::NAN; 4], det_f: f64::NAN },

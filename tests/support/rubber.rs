@@ -82,22 +82,21 @@ struct Stress<'a> {
     patch: &'a Patch,
     deformed: Patch,
     material: &'a dyn Material,
-    projected: Tau<'a>,
+    tau: Tau<'a>,
 }
 
 impl<'a> Stress<'a> {
     fn new(patch: &'a Patch, elements: &'a Elements, material: &'a dyn Material, u: &[Point]) -> Self {
         let points = patch.points.iter().zip(u).map(|(x, u)| x + u).collect();
         let deformed = Patch { points, ..patch.clone() };
-        Self { patch, deformed, material, projected: elements.tau(material, u) }
+        Self { patch, deformed, material, tau: elements.tau(material, u) }
     }
 
     fn at(&self, element: [usize; 2], uv: [f64; 2]) -> f64 {
-        self.projected.at(element, uv).unwrap_or_else(|| {
-            let columns = |patch: &Patch| Matrix2::from_columns(&patch.map(element, uv).1);
-            let f = columns(&self.deformed) * columns(self.patch).try_inverse().expect("regular");
-            self.material.lambda() * self.material.dilatation(&f).expect("admissible").value
-        })
+        let columns = |patch: &Patch| Matrix2::from_columns(&patch.map(element, uv).1);
+        let f = columns(&self.deformed) * columns(self.patch).try_inverse().expect("regular");
+        let theta = self.material.dilatation(&f).expect("admissible").value;
+        self.tau.at(element, uv, theta)
     }
 }
 
