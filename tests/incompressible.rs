@@ -116,7 +116,7 @@ fn forces_and_stiffness_are_derivatives() {
             let energy = ((plus.0 - minus.0) / (2.0 * step) - power).abs() / forces.amax();
             let forces = ((plus.1 - minus.1) / (2.0 * step) - &change).amax() / change.amax();
             assert!(energy < 1e-6 && forces < 1e-6, "{basis:?} {}: {energy:.1e} {forces:.1e}", material.name());
-            assert_eq!(stiffness, stiffness.transpose());
+            assert!((&stiffness - stiffness.transpose()).amax() < 1e-13 * stiffness.amax());
         }
     }
 }
@@ -126,15 +126,13 @@ fn forces_and_stiffness_are_derivatives() {
 fn hertz_does_not_see_poissons_ratio() {
     println!("Hertz, a/h = 9: L2, peak, ripple of the contact pressure; L2, ripple below, % of p0");
     for basis in bases() {
-        let case = |nu| Case { nu, basis, ..PLANE };
-        let reference = rubber::hertz(&case(0.3));
-        let found = rubber::hertz(&case(NU));
-        let plain = rubber::hertz(&Case { volume: Some(None), ..case(NU) });
+        let mean = |nu, volume| rubber::hertz_mean(&Case { nu, basis, volume, ..PLANE });
+        let [reference, found, plain] = [(0.3, None), (NU, None), (NU, Some(None))].map(|(nu, v)| mean(nu, v));
         let row = |name: &str, e: &[f64; 5]| println!("{basis:?} {name:20} {e:8.3?}");
         row("0.3", &reference);
         row("0.4999", &found);
         row("0.4999, standard", &plain);
-        assert!(found[0] < 1.5 * reference[0] && found[1] < 0.6 && found[2] < 1.2 * reference[2], "{basis:?}");
+        assert!(found[0] < 1.4 * reference[0] && found[1] < 0.6 && found[2] < 1.2 * reference[2], "{basis:?}");
         assert!(found[0] < 0.2 * plain[0] && found[2] < 0.3 * plain[2] && found[3] < 4.0, "{basis:?}");
     }
 }
@@ -146,9 +144,9 @@ fn rings_do_not_lock() {
         let basis = BasisSpec::Nurbs { degree };
         let [coarse, fine] = [1, 2].map(|n| rubber::ring(basis, NU, n, None));
         let plain = rubber::ring(basis, NU, 1, Some(None));
-        println!("p = {degree}: interface, inside (%): {coarse:.1e?}, refined {fine:.1e?}; standard {plain:.1e?}");
-        assert!(coarse[0] < 1e-2 && coarse[1] < 1.0 && coarse[1] < 0.1 * plain[1], "p = {degree}: {coarse:?}");
-        assert!(fine[0] < coarse[0].max(1e-4) && fine[1] < coarse[1].max(0.02), "p = {degree}: {fine:?}");
+        println!("p = {degree}: interface, inside (%): {coarse:?}, refined {fine:?}; standard {plain:?}");
+        assert!(coarse[0] < 1e-2 && coarse[1] < 5.0 && coarse[1] < 0.1 * plain[1], "p = {degree}: {coarse:?}");
+        assert!(fine[0] < coarse[0].max(1e-4) && fine[1] < 0.5 * coarse[1], "p = {degree}: {fine:?}");
     }
 }
 
@@ -161,7 +159,7 @@ fn cooks_membrane_does_not_lock() {
         let [coarse, fine] = [8, 16].map(|n| error(n, None));
         println!("{basis:?}: {coarse:.1e}, {fine:.1e}; standard {:.1e}", error(16, Some(None)));
         let linear = matches!(basis, BasisSpec::Nurbs { degree: 1 } | BasisSpec::Lagrange { degree: 1 });
-        assert!(coarse < if linear { 0.03 } else { 0.01 } && fine < 0.7 * coarse, "{basis:?}");
+        assert!(coarse < if linear { 0.12 } else { 0.015 } && fine < f64::max(0.6 * coarse, 1e-3), "{basis:?}");
         assert!(!linear || error(16, Some(None)) > 0.5);
     }
 }
@@ -221,10 +219,10 @@ fn last_iterations_are_quadratic() {
         let step = solve_step(&found.model, start, time, Strategy::default(), &mut solver, &quiet, &mut count);
         let step = step.expect("converges");
         let r: Vec<f64> = step.residuals.iter().map(|v| v / step.evaluation.force_scale).collect();
-        println!("{r:.1e?}");
+        println!("{r:?}");
         // above round-off, which is `lambda/E` larger than that of compressible bodies
         let last = r.len() - 1;
-        let order = r[last].max(1e-11).ln() / r[last - 1].ln();
+        let order = r[last].max(1e-12).ln() / r[last - 1].ln();
         assert!(order > 1.6, "order {order:.2}: {r:?}");
     }
 }

@@ -41,7 +41,7 @@ pub(super) const POINTWISE: f64 = 2.0 * PLAIN / (1.0 - 2.0 * PLAIN);
 /// cubics (`p = 4`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VolumeSpace {
-    /// Elements of a block along each direction (one more where their number is no multiple).
+    /// Elements of a block along each direction (one less or some more where their number is no multiple).
     pub block: usize,
     /// Total degree.
     pub degree: usize,
@@ -163,13 +163,23 @@ impl Volume {
     }
 }
 
-/// `n` elements in blocks of `size`; where some are left over the blocks in the middle are larger by one.
+/// `n` elements in blocks of about `size`, the same from both ends, so that what is symmetric stays so: an odd number of
+/// elements in an odd number of blocks. Those that are larger by one lie inside, away from the edges that are in contact.
 fn parts(n: usize, size: usize) -> Vec<std::ops::Range<usize>> {
-    let count = (n / size).max(1);
-    let (length, larger) = (n / count, n % count);
-    let first = (count - larger) / 2;
-    let start = |k: usize| k * length + k.saturating_sub(first).min(larger);
-    (0..count).map(|k| start(k)..start(k + 1)).collect()
+    let full = (n / size).max(1);
+    let count = full + usize::from(full % 2 == 0 && n % 2 == 1);
+    let (length, larger, half) = (n / count, n % count, count / 2);
+    let is_larger = |k: usize| match k.min(count - 1 - k) {
+        pair if pair == half => larger % 2 == 1,
+        pair => pair + larger / 2 >= half,
+    };
+    let mut start = 0;
+    let part = |k: usize| {
+        let first = start;
+        start += length + usize::from(is_larger(k));
+        first..start
+    };
+    (0..count).map(part).collect()
 }
 
 impl Block {
@@ -211,4 +221,22 @@ fn orthonormal(count: usize, table: &[(Vec<f64>, f64)]) -> DMatrix<f64> {
     }
     let factor = mass.cholesky().expect("as many quadrature points as functions, on a body of positive area").l();
     factor.solve_lower_triangular(&DMatrix::identity(count, count)).expect("a regular factor")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parts;
+
+    #[test]
+    fn blocks_are_symmetric_and_of_about_the_size() {
+        for (n, size) in (1..200).flat_map(|n| [1, 2, 4].map(|size| (n, size))) {
+            let parts = parts(n, size);
+            assert_eq!((parts[0].start, parts[parts.len() - 1].end), (0, n));
+            for (part, mirror) in parts.iter().zip(parts.iter().rev()) {
+                assert_eq!(part.len(), mirror.len(), "{n} in {size}: {parts:?}");
+                assert!(n < size || (part.len() + 1 >= size && part.len() < 2 * size && !part.is_empty()), "{parts:?}");
+            }
+            assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
+        }
+    }
 }

@@ -41,6 +41,13 @@ pub fn hertz(case: &Case) -> [f64; 5] {
         .map(|v| 100.0 * v)
 }
 
+/// Mean of [`hertz`] over loads whose contact edge lies at different places of an element.
+pub fn hertz_mean(case: &Case) -> [f64; 5] {
+    let load = |k: usize| 1.0 + ((k as f64 + 0.5) / 3.0 - 0.5) / case.per_a;
+    let all = [0, 1, 2].map(|k| hertz(&Case { a: load(k), ..*case }));
+    std::array::from_fn(|i| all.iter().map(|e| e[i]).sum::<f64>() / 3.0)
+}
+
 /// Hydrostatic part below the contact, by McEwen's closed form (Johnson, eq. 4.49):
 /// `sigma_xx + sigma_yy = -2 p0/a (m - z)`, `m^2 = (sqrt((a^2 - x^2 + z^2)^2 + 4 x^2 z^2) + a^2 - x^2 + z^2)/2`.
 fn below(case: &Case, model: &Model, state: &State, a: f64, p0: f64) -> [f64; 2] {
