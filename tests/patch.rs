@@ -163,7 +163,7 @@ fn exact(setup: &Setup) -> (Matrix2<f64>, Matrix2<f64>) {
 /// largest one).
 fn errors(setup: &Setup) -> [f64; 2] {
     let model = model(setup);
-    let (state, evaluation) = solve(&model, 2);
+    let (state, evaluation) = solve(&model, if setup.ratio == RATIO { 2 } else { 16 });
     let (f, stress) = exact(setup);
     // traction on the lower body per reference length, split along the deformed normal and tangent
     let slope = setup.interface[1] - setup.interface[0];
@@ -239,11 +239,21 @@ fn rubber_passes_as_well() {
     let mut worst = [0.0_f64; 2];
     for (basis, finite_strain) in BASES.into_iter().flat_map(|basis| [(basis, false), (basis, true)]) {
         for (name, setup) in cases(basis, finite_strain, Integration::Segment) {
-            let [p, u] = errors(&Setup { ratio: RUBBER, ..setup });
+            // strains without lateral freedom that ask for pressures of the size of those at `RATIO`, and small steps: Newton's
+            // method changes volumes in second order, against which rubber is stiff
+            let share = (1.0 - 2.0 * RUBBER) / (1.0 - 2.0 * RATIO);
+            let load = match setup.load {
+                Load::Confined(e) => Load::Confined(share * e),
+                Load::Hydrostatic(e) => Load::Hydrostatic(share * e),
+                Load::Displacement(e) => Load::Displacement(0.1 * e),
+                Load::Pressure(p) => Load::Pressure(0.1 * p),
+            };
+            let [p, u] = errors(&Setup { ratio: RUBBER, load, ..setup });
             println!("{basis:?} finite {finite_strain:5} {name:30} pressure {p:.1e} displacement {u:.1e}");
             worst = [worst[0].max(p), worst[1].max(u)];
         }
     }
+    println!("rubber: pressure {:.1e}, displacement {:.1e}", worst[0], worst[1]);
     assert!(worst[0] < 1e-9 && worst[1] < 1e-9, "{worst:?}");
 }
 

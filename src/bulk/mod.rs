@@ -9,4 +9,4 @@ mod volume;
 pub use elements::{BulkForces, Elements};
 pub use material::{Dilatation, LinearElastic, Material, NeoHookean, StressResponse, lame};
 pub use projected::Tau;
-pub use volume::VolumeSpace;
+pub use volume::{VolumeSpace, confinement};

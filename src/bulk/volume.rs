@@ -47,6 +47,12 @@ pub struct VolumeSpace {
     pub degree: usize,
 }
 
+/// `lambda/(4 mu)`, at least 1: how much stiffer against changes of volume a material is than at `nu = 0.4`.
+pub fn confinement(material: &dyn Material) -> f64 {
+    let (lambda, mu) = material.lame();
+    (lambda / (POINTWISE * mu)).max(1.0)
+}
+
 impl fmt::Display for VolumeSpace {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let functions = ["constants", "linears", "quadratics"].get(self.degree).copied();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use asperity_laws::FrictionLaw;
 
-use crate::bulk::{Elements, Material, VolumeSpace};
+use crate::bulk::{Elements, Material, VolumeSpace, confinement};
 use crate::contact::{Integration, Mortar, Numerics, Projection, Sites};
 use crate::geometry::{Basis, Curve, Edge, Patch, Point};
 use crate::math::gauss;
@@ -183,7 +183,6 @@ impl Builder {
             pairs.push(pair);
         }
         let materials = || self.bodies.iter().filter_map(Body::material);
-        let confinement = |m: &Arc<dyn Material>| (m.lame().0 + 2.0 * m.lame().1) / m.youngs_modulus();
         let driven = self.motions.iter().find(|m| m.drive).map(|m| m.body);
         Ok(Model {
             stride: pairs.iter().flat_map(|p| [&p.nonmortar, &p.mortar]).fold(f64::INFINITY, |m, side| {
@@ -192,7 +191,7 @@ impl Builder {
             }),
             driven: driven.or(pairs.first().map(|p| p.nonmortar.body)).unwrap_or(0),
             modulus: materials().map(|m| m.youngs_modulus()).fold(f64::INFINITY, f64::min),
-            confinement: materials().map(confinement).fold(1.0, f64::max),
+            confinement: materials().map(|m| confinement(m.as_ref())).fold(1.0, f64::max),
             element_size: if element_size.is_finite() { element_size } else { mean_element(&self.bodies) },
             bodies: self.bodies,
             motions: self.motions,

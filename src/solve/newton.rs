@@ -12,8 +12,8 @@ use super::weakening::{self, Linearisation};
 
 /// Accepted residual relative to the largest nodal force.
 const RELATIVE: f64 = 1e-9;
-/// Accepted residual relative to the size of the model times `E` and, near incompressibility, `(lambda + 2 mu)/E`: round-off
-/// of a translated body.
+/// Accepted residual relative to `E` times the size of the model: round-off of a translated body. Near incompressibility it
+/// grows with the stiffness against changes of volume.
 const ROUND_OFF: f64 = 1e-14;
 
 /// Iterations without a residual below half of the best before, after which the next guess is tried.
