@@ -3,8 +3,12 @@
 mod elements;
 mod lumped;
 mod material;
+mod projected;
 mod stiffness;
+mod volume;
 
 pub use elements::{BulkForces, Elements};
 pub use lumped::lumped_areas;
-pub use material::{LinearElastic, Material, NeoHookean, StressResponse, lame};
+pub use material::{Dilatation, LinearElastic, Material, NeoHookean, StressResponse, lame};
+pub use projected::Tau;
+pub use volume::{VolumeSpace, confinement};

@@ -48,14 +48,15 @@ fn body_line(scene: &Scene, body: &Body) -> String {
     let elements = scene.body.get(&body.name).map_or([0, 0], |spec| spec.elements);
     match (body.patch(), body.material()) {
         (Some(patch), Some(material)) => format!(
-            "body {}: {}, {} of degree {}, {} x {} elements, {} control points",
+            "body {}: {}, {} of degree {}, {} x {} elements, {} control points; {}",
             body.name,
             material.name(),
             patch.basis[0].name(),
             patch.basis[0].degree(),
             patch.elements()[0],
             patch.elements()[1],
-            body.points.len()
+            body.points.len(),
+            body.volumetric().unwrap_or_default()
         ),
         _ => {
             format!("body {}: rigid, a curve of {} elements without unknowns", body.name, elements[0].max(elements[1]))

@@ -76,6 +76,9 @@ pub struct Model {
     pub driven: usize,
     /// Stress scale: the smallest Young's modulus.
     pub modulus: f64,
+    /// How much stiffer against changes of volume the bodies are than at a Poisson's ratio of 0.4, at least 1: see
+    /// [`confinement`](crate::bulk::confinement).
+    pub confinement: f64,
     /// A quarter of the shortest contact edge: what a driven body may travel in one step without passing through another
     /// unseen.
     pub stride: f64,

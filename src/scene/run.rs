@@ -3,11 +3,11 @@
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::contact::ContactDiscretization;
 use crate::math::Counters;
-use crate::model::{Model, Pair, Record};
+use crate::model::{Body, Model, Pair, Record};
 use crate::output::{OutputError, RunFolder, checkpoint};
 use crate::solve::{Control, Outcome, Status, proceed};
 use crate::verify::{Finding, step_warnings};
@@ -159,8 +159,13 @@ pub fn sizes(model: &Model) -> Value {
         "contact_unknowns": model.boundary.len(),
         "stress_scale": model.modulus,
         "element_size": model.element_size,
+        "volumetric": model.bodies.iter().filter_map(volumetric).collect::<Map<_, _>>(),
         "pairs": model.pairs.iter().map(pair).collect::<Vec<_>>(),
     })
+}
+
+fn volumetric(body: &Body) -> Option<(String, Value)> {
+    Some((body.name.clone(), body.volumetric()?.into()))
 }
 
 fn pair(pair: &Pair) -> Value {

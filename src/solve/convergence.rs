@@ -4,7 +4,8 @@ use crate::model::{Evaluation, Model};
 
 /// Accepted residual relative to the largest nodal force.
 const RELATIVE: f64 = 1e-9;
-/// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
+/// Accepted residual relative to `E` times the size of the model: round-off of a translated body. Near incompressibility it
+/// grows with the stiffness against changes of volume.
 const ROUND_OFF: f64 = 1e-14;
 /// Iterations without a residual below half of the best before, after which the next guess is tried.
 const PATIENCE: usize = 5;
@@ -16,7 +17,7 @@ pub fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
 
 /// The residual asked for.
 pub fn tolerance(model: &Model, evaluation: &Evaluation) -> f64 {
-    RELATIVE * evaluation.force_scale + ROUND_OFF * model.modulus * model.size()
+    RELATIVE * evaluation.force_scale + ROUND_OFF * model.modulus * model.confinement * model.size()
 }
 
 /// True where the best residual is [`PATIENCE`] iterations old: the active set cycles.

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use asperity::bulk::{Material, NeoHookean};
+use asperity::bulk::{NeoHookean, VolumeSpace};
 use asperity::contact::{Integration, Projection, Sites};
 use asperity::geometry::shapes::{Block, Cosine};
 use asperity::geometry::{BasisSpec, Edge, Profile, ShapeSpec, build};
@@ -37,6 +37,9 @@ pub struct Pass {
     /// Height of the asperities, and how far the tips overlap when one passes the other.
     pub height: f64,
     pub overlap: f64,
+    pub poissons_ratio: f64,
+    /// Space of the dilatations; `None` leaves it to the program.
+    pub volume: Option<Option<VolumeSpace>>,
     /// Part of the path: positions of the upper asperity.
     pub from: f64,
     pub to: f64,
@@ -60,6 +63,8 @@ impl Default for Pass {
             stress: 1.0,
             height: 0.4,
             overlap: 0.2,
+            poissons_ratio: 0.3,
+            volume: None,
             from: -1.9,
             to: 1.9,
         }
@@ -86,8 +91,8 @@ fn body(setup: &Pass, up: bool, h: f64) -> BodySpec {
     let count = |length: f64| (length / l / h).round() as usize;
     let elements = [count(block.x[1] - block.x[0]), count(l)];
     let patch = build(&ShapeSpec::Block(block), &basis, elements, None, position, Path::new(".")).expect("a block");
-    let material: Arc<dyn Material> = Arc::new(NeoHookean { youngs_modulus: setup.stress, poissons_ratio: 0.3 });
-    BodySpec::Deformable(patch, material)
+    let material = NeoHookean { youngs_modulus: setup.stress, poissons_ratio: setup.poissons_ratio };
+    BodySpec::Deformable(patch, Arc::new(material))
 }
 
 /// The model of a pass.
@@ -104,9 +109,14 @@ pub fn pass(setup: &Pass) -> Model {
     pair.points = setup.points;
     pair.r = Some(setup.r);
     let built = (|| {
-        builder
-            .body("lower", body(setup, true, setup.element))?
-            .body("upper", body(setup, false, 0.93 * setup.element))?;
+        for (name, spec) in
+            [("lower", body(setup, true, setup.element)), ("upper", body(setup, false, 0.93 * setup.element))]
+        {
+            match setup.volume {
+                None => builder.body(name, spec)?,
+                Some(space) => builder.body_in(name, spec, space)?,
+            };
+        }
         builder.motion("lower", Edge::Bottom, 0, hold(), false)?.motion("lower", Edge::Bottom, 1, hold(), false)?;
         builder.motion("upper", Edge::Top, 0, drag, true)?.motion("upper", Edge::Top, 1, hold(), true)?;
         builder.contact(pair);
