@@ -12,6 +12,7 @@
 
 mod error;
 pub mod figures;
+mod fingerprint;
 mod folder;
 pub mod readme;
 pub mod run_json;
@@ -20,5 +21,6 @@ mod units;
 pub mod vtu;
 
 pub use error::OutputError;
+pub(crate) use fingerprint::fingerprint;
 pub use folder::RunFolder;
 pub use units::{Quantity, UnitLabels};

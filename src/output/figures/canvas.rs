@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::palette::INK;
 use super::text;
+use crate::output::fingerprint;
 
 /// Points per millimetre.
 pub const PER_MM: f64 = 72.0 / 25.4;
@@ -111,6 +112,11 @@ impl Canvas {
         );
     }
 
+    /// A filled circle.
+    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
+        let _ = writeln!(self.body, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{colour}\"/>");
+    }
+
     /// Fills a path given in SVG syntax. `crisp` leaves no seams between neighbours that share an edge.
     pub fn fill_path(&mut self, path: &str, colour: &str, opacity: f64, crisp: bool) {
         let crisp = if crisp { " shape-rendering=\"crispEdges\"" } else { "" };
@@ -155,16 +161,12 @@ impl Canvas {
     pub fn finish(self) -> String {
         let [width, height] = self.size;
         let [wide, high] = self.size.map(|points| points / PER_MM);
+        // ids must be unique where several figures stand in one HTML page
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide:.2}mm\" height=\"{high:.2}mm\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{}</svg>\n",
             self.body.replace(CLIP, &format!("c{:x}-", fingerprint(&self.body)))
         )
     }
-}
-
-/// FNV-1a hash: tells figures apart that stand in one HTML page, where ids must be unique.
-fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// SVG path through points, coordinates to 0.01 pt, corners that do not show dropped.

@@ -24,6 +24,7 @@ mod instants;
 mod interface;
 mod keys;
 mod labels;
+pub mod lines;
 mod overlay;
 mod palette;
 mod png;
