@@ -3,7 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::time::Instant;
+
+#[path = "sweep/bad_input.rs"]
+mod bad_input;
+#[path = "sweep/many.rs"]
+mod many;
 
 /// Two blocks, pressed and dragged: four steps of a few milliseconds.
 const SCENE: &str = r#"
@@ -84,7 +88,7 @@ fn sweep(folder: &Path, arguments: &[&str], code: i32) -> [String; 2] {
     told(start(folder, arguments).output().unwrap(), code)
 }
 
-fn told(output: Output, code: i32) -> [String; 2] {
+pub fn told(output: Output, code: i32) -> [String; 2] {
     let said = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
     assert_eq!(output.status.code(), Some(code), "{}\n{}", said[0], said[1]);
     said
@@ -245,90 +249,6 @@ fn table_of_states(folder: &Path) -> Vec<String> {
         json["status"].as_str().map(str::to_owned)
     };
     points.filter_map(|point| state(point.ok()?.path())).collect()
-}
-
-/// What is said of a changed study, which must be refused as bad input.
-fn refused(found: &str, replaced: &str) -> String {
-    assert!(STUDY.contains(found), "{found}");
-    let folder = folder("refused");
-    std::fs::write(folder.join("study.toml"), STUDY.replacen(found, replaced, 1)).unwrap();
-    let [_, error] = sweep(&folder, &[], 2);
-    assert!(!folder.join("out").exists(), "nothing is written");
-    error
-}
-
-#[test]
-fn bad_studies_are_named_with_file_line_key_and_what_is_meant() {
-    let cases = [
-        ("scene = ", "scenes = ", "study.toml:4:1", "scenes", "`scene`"),
-        ("scene.toml", "scen.toml", "study.toml:4:9", "scene", "cannot read the scene"),
-        ("version = 1", "version = 2", "study.toml:2:11", "version", ""),
-        ("friction\"", "frction\"", "study.toml:12:10", "axis.1.values.0", "`friction`"),
-        ("values = [0.1, 0.2]", "values = [0.1, -0.2]", "study.toml:12:16", "axis.1.values.1", ">= 0"),
-        ("values = [0.1, 0.2]", "values = [0.1, 0.2, 0.3]", "study.toml:13:51", "axis.1.zip.0.values", "as many"),
-        ("[6, 3]]", "[6]]", "study.toml:13:60", "axis.1.zip.0.values.1", "a list of 2"),
-        ("-depth", "-deph", "study.toml:5:12", "formula.0", "did you mean `depth`"),
-        ("-depth", "-0.05", "study.toml:6:1", "axis.0", "changes nothing"),
-        ("count = 2", "count = 1", "study.toml:8:53", "axis.0.values.linear.count", ">= 2"),
-        ("name = \"mu\"", "name = \"status\"", "study.toml:10:8", "axis.1.name", "taken by the table"),
-        ("\"mu_global\"", "\"mu_globl\"", "study.toml:16:10", "quantity.0.column", "`mu_global`"),
-        ("take = \"last\"", "take = \"lst\"", "study.toml:17:8", "quantity.0.take", "`last`"),
-        ("take = \"last\"", "take = \"last\"\nweight = \"fy\"", "study.toml:18:1", "quantity.0.weight", "mean"),
-        ("contact.0.law.friction\"", "drive.0.y.displacement.value.1\"", "study.toml:5:12", "formula.0", "already"),
-    ];
-    for (found, replaced, place, key, meant) in cases {
-        let said = refused(found, replaced);
-        for part in [place, &format!("= key: {key}\n"), meant] {
-            assert!(said.contains(part), "{replaced}: no {part:?} in\n{said}");
-        }
-    }
-    let figure = "\n[[figure]]\nquantity = \"wrk\"\nover = \"my\"\n[[quantity]]\nname = \"mu_end\"";
-    let said = refused("\n[[quantity]]\nname = \"mu_end\"", figure);
-    assert!(said.contains("did you mean `work`?") && said.contains("did you mean `mu`?"), "{said}");
-}
-
-/// The figure that the issue asks for: 1e4 points list, resume and collect within seconds.
-#[test]
-fn ten_thousand_points_list_resume_and_collect_within_seconds() {
-    let folder = folder("many");
-    let count = |n: usize| format!("{{ linear = {{ from = 0.02, to = 0.05, count = {n} }} }}");
-    let zip = "zip = [{ path = \"body.lower.elements\", values = [[5, 2], [6, 3]] }]\n";
-    let study = STUDY.replace(&count(2), &count(100)).replace("[0.1, 0.2]", &count(100)).replace(zip, "");
-    std::fs::write(folder.join("study.toml"), study).unwrap();
-    let clock = Instant::now();
-    let [list, _] = sweep(&folder, &["--list"], 0);
-    let listed = clock.elapsed().as_secs_f64();
-    let points: Vec<&str> = list.lines().filter_map(|line| line.split("points/").nth(1)).collect();
-    assert_eq!(points.len(), 10_000);
-    let history = real_history(&folder);
-    for point in points {
-        let point = folder.join("out/study/points").join(point);
-        std::fs::create_dir_all(&point).unwrap();
-        std::fs::write(point.join("point.json"), r#"{"status":"done","reason":"","wall_s":1.0}"#).unwrap();
-        std::fs::write(point.join("history.csv"), &history).unwrap();
-    }
-    let clock = Instant::now();
-    sweep(&folder, &["--collect", "--quiet"], 0);
-    let collected = clock.elapsed().as_secs_f64();
-    let clock = Instant::now();
-    let [said, error] = sweep(&folder, &[], 0);
-    let resumed = clock.elapsed().as_secs_f64();
-    assert!(said.contains("10000 points: 10000 done") && !error.contains("point "), "{said}{error}");
-    println!(
-        "1e4 points of 76 rows: list {listed:.2} s, collect {collected:.2} s, resume with nothing to do {resumed:.2} s"
-    );
-    if !cfg!(debug_assertions) {
-        assert!(listed < 10.0 && collected < 10.0 && resumed < 10.0, "{listed} {collected} {resumed}");
-    }
-    std::fs::remove_dir_all(folder.join("out")).unwrap();
-}
-
-/// A history of 76 rows.
-fn real_history(folder: &Path) -> String {
-    let mut run = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    run.current_dir(folder).args(["run", "scene.toml", "--quiet", "--out", "real", "--set", "output.figures=false"]);
-    told(run.args(["--set", "output.fields=0", "--set", "time.steps=76"]).output().unwrap(), 0);
-    std::fs::read_to_string(folder.join("real/history.csv")).unwrap()
 }
 
 /// The study that is shipped, with fewer steps: exact statements about all nine passes.

@@ -24,6 +24,8 @@ pub(super) struct Axis {
 pub(super) struct Effect {
     /// Key of the scene.
     pub path: KeyPath,
+    /// Where that key stands in the study.
+    pub path_at: KeyPath,
     /// One value for each value of the axis.
     pub values: Vec<Value>,
     /// Where the values stand in the study.
@@ -77,7 +79,7 @@ fn effects(paths: Option<&Paths>, values: &[Value], key: &KeyPath, origin: KeyPa
         Some(Paths::Several(paths)) => paths.iter().enumerate().map(|(k, path)| (path, key.at(k))).collect(),
     };
     let effect = |(text, key): (&String, KeyPath)| match KeyPath::parse(text) {
-        Some(path) => Ok(Effect { path, values: values.to_vec(), origin: origin.clone() }),
+        Some(path) => Ok(Effect { path, path_at: key, values: values.to_vec(), origin: origin.clone() }),
         None => Err(not_a_key(text, key)),
     };
     paths.into_iter().map(effect).collect::<Result<_, Issue>>().map_err(|issue| vec![issue])

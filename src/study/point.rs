@@ -5,6 +5,7 @@ use toml::Value;
 
 use super::Study;
 use super::axis::{number, plain, whole};
+use super::rules::at_key;
 use crate::output::fingerprint;
 use crate::scene::{Issue, KeyPath, Place, Scene, SceneError, Source};
 
@@ -55,19 +56,20 @@ impl Study {
     /// Puts the values of the axes and formulas into the scene; notes where each of them came from.
     fn put_all(&self, index: usize, source: &mut Source, said: &mut Vec<(KeyPath, KeyPath)>) -> Result<(), SceneError> {
         let places = self.places(index);
-        let mut put = |path: &KeyPath, value: &Value, origin: KeyPath| {
-            said.push((path.clone(), origin.clone()));
-            source.put(&self.grammar, path, value, &origin.to_string())
+        let mut put = |path: &KeyPath, path_at: &KeyPath, value: &Value, origin: KeyPath| {
+            let put = source.put(&self.grammar, path, value, &origin.to_string());
+            said.push((path.clone(), origin));
+            put.map_err(|error| self.source.locate(at_key(error, path_at)))
         };
         for (axis, place) in self.axes.iter().zip(&places) {
             for effect in &axis.effects {
-                put(&effect.path, &effect.values[*place], effect.origin.at(place))?;
+                put(&effect.path, &effect.path_at, &effect.values[*place], effect.origin.at(place))?;
             }
         }
         let value = |(axis, place): (&super::Axis, &usize)| number(&axis.values[*place]).unwrap_or(0.0);
         let numbers: Vec<f64> = self.axes.iter().zip(&places).map(value).collect();
         for formula in &self.formulas {
-            put(&formula.path, &whole(formula.value(&numbers)), formula.origin.clone())?;
+            put(&formula.path, &formula.origin, &whole(formula.value(&numbers)), formula.origin.clone())?;
         }
         Ok(())
     }

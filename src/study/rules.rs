@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::axis::Axis;
 use super::formula::Formula;
 use super::spec::{FigureSpec, StudySpec, Take};
-use crate::scene::{Issue, KeyPath, SceneError};
+use crate::scene::{Focus, Issue, KeyPath, SceneError};
 
 /// More points than this are taken for a slip of the pen.
 const MOST_POINTS: usize = 1_000_000;
@@ -47,7 +47,7 @@ pub(super) fn check(spec: &StudySpec) -> Result<(Vec<Axis>, Vec<Formula>), Scene
 
 /// The same issues, all of them with a value of the study.
 pub(super) fn at_key(error: SceneError, key: &KeyPath) -> SceneError {
-    let moved = |issue: Issue| Issue { key: key.clone(), place: None, ..issue };
+    let moved = |issue: Issue| Issue { key: key.clone(), focus: Focus::Value, place: None, ..issue };
     SceneError(error.0.into_iter().map(moved).collect())
 }
 

@@ -116,6 +116,7 @@ fn computed(
         Ok((scene, model))
     });
     match built {
+        // a point that was stopped begins again: points are short, and done or not done
         Ok((scene, model)) => Ok(ending(&scene::run(&scene, &model, folder, interrupt, watch)?)),
         Err(error) => Ok((PointState::BadInput, in_one_line(&error))),
     }
