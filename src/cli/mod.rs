@@ -6,6 +6,7 @@ mod check;
 mod laws;
 mod outcome;
 mod probe;
+mod report;
 mod run;
 mod sweep;
 
@@ -16,7 +17,7 @@ use crate::scene::Scene;
 use crate::study::Study;
 use clap::{Args, Parser, Subcommand};
 
-use outcome::{Exit, Failure, report, say};
+use outcome::{Exit, Failure, say};
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -77,6 +78,17 @@ enum Command {
         #[arg(long, value_name = "DIR", requires = "probe")]
         out: Option<PathBuf>,
     },
+    /// Write one self-contained HTML file about a run or a study.
+    ///
+    /// It says what was computed and how to compute it again, shows all figures, an animation of the pass, tables, audits and
+    /// warnings, and needs neither network nor other files.
+    Report {
+        /// Folder of a run or a study.
+        folder: PathBuf,
+        /// The file to write [default: report.html in the folder].
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// Print the JSON schema of a scene or of a study.
     ///
     /// Editors that know JSON schemas for TOML (for example taplo) complete and check a scene with it:
@@ -129,9 +141,10 @@ pub fn main() -> ExitCode {
         Command::Sweep(arguments) => sweep::command(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Laws { name, probe, out } => laws::laws(name.as_deref(), probe.as_deref(), out.as_deref()),
+        Command::Report { folder, out } => report::report(folder, out.as_deref()),
         Command::Schema { of } => schema(*of),
     };
-    report(outcome)
+    outcome::report(outcome)
 }
 
 fn schema(of: Kind) -> Result<Exit, Failure> {

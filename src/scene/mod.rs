@@ -7,6 +7,7 @@
 //! [`Scene`] is plain data with all defaults filled in; a program may as well make one itself, and `build` either kind.
 
 mod build;
+mod describe;
 mod fields;
 mod grammar;
 mod issue;
@@ -26,6 +27,7 @@ mod tree;
 use std::path::Path;
 
 pub use build::build;
+pub use describe::{left_out, modelled, size_lines};
 pub use grammar::Grammar;
 pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
 pub use motion::{Components, Course, DriveSpec, Motion, SupportSpec, TimeTable};

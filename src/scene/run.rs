@@ -12,6 +12,7 @@ use crate::output::{OutputError, RunFolder};
 use crate::solve::{Control, Outcome, Status, march};
 use crate::verify::{Audit, Expectations, Finding, step_warnings};
 
+use super::describe::{left_out, modelled};
 use super::recorder::Recorder;
 use super::spec::Scene;
 
@@ -114,6 +115,8 @@ fn summary(scene: &Scene, model: &Model, warnings: &[String], result: Value) -> 
         "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
         "scene": scene,
         "model": sizes(model),
+        "modelled": modelled(scene, model),
+        "left_out": left_out(scene, model),
         "warnings": warnings,
         "result": result,
     })

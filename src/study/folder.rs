@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use super::{Point, PointStatus, Study};
 use crate::output::run_json::{write_atomic, write_json};
 use crate::output::{OutputError, RunFolder};
-use crate::scene::Units;
 
 /// The folder of a study.
 #[derive(Clone, Debug)]
@@ -25,12 +24,11 @@ impl StudyFolder {
     /// The path and the reason.
     pub fn prepare(&self, study: &Study, points: &[Point]) -> Result<(), OutputError> {
         RunFolder::create(&self.root)?;
-        let units = points.first().and_then(|point| study.scene(point.index).ok());
-        let units = units.map_or_else(Units::default, |(scene, _)| scene.units);
+        let first = points.first().and_then(|point| Some(study.scene(point.index).ok()?.0));
         let record = serde_json::json!({
             "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
             "study": study.spec(),
-            "units": units,
+            "first_scene": first,
             "points": points.len(),
         });
         write_json(&self.root.join("study.json"), &record)?;

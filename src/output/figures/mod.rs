@@ -41,6 +41,7 @@ pub use animation::film;
 pub use bodies::Frame;
 pub use instants::{CONTACT_THRESHOLD, Instant, choose};
 pub use png::DPI;
+pub(super) use text::escape;
 
 use std::path::{Path, PathBuf};
 
