@@ -19,11 +19,14 @@ const CHART: f64 = 84.0;
 const KEYS: f64 = 40.0;
 const MARGIN: f64 = 6.0;
 
-/// Rows of the history worth a picture: at most 60 converged ones, evenly spaced.
+/// Rows of the history worth a picture: at most 60 converged ones, evenly spaced over the part that the charts show.
 pub fn film(records: &[Record]) -> Vec<usize> {
-    let converged: Vec<usize> = (0..records.len()).filter(|k| records[*k].converged).collect();
-    let stride = converged.len().div_ceil(MOST).max(1);
-    converged.into_iter().step_by(stride).collect()
+    let x = abscissa(records, &UnitLabels::default());
+    let [low, high] = x.contact_range(records);
+    let shown = |k: &usize| records[*k].converged && (low..=high).contains(&x.values[*k]);
+    let shown: Vec<usize> = (0..records.len()).filter(shown).collect();
+    let stride = shown.len().div_ceil(MOST).max(1);
+    shown.into_iter().step_by(stride).collect()
 }
 
 /// The animation; `None` for fewer than two frames.
@@ -39,7 +42,7 @@ pub fn svg(records: &[Record], frames: &[Frame], units: &UnitLabels) -> Option<S
     let top = panel.bottom + KEYS + 14.0;
     let chart = frame::Frame {
         rect: Rect { left: 44.0, top, right: WIDTH - MARGIN, bottom: top + CHART },
-        x: Axis::new(x.range(), 8),
+        x: Axis::new(x.contact_range(records), 8),
         y: Axis::new(range(records.iter().flat_map(|record| record.force).chain([0.0]), 0.08), 4),
     };
     let mut canvas = Canvas::new(WIDTH, chart.rect.bottom + 25.0);

@@ -161,9 +161,12 @@ impl Canvas {
         let _ = writeln!(self.body, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{colour}\"/>");
     }
 
-    /// Fills a path given in SVG syntax. `crisp` leaves no seams between neighbours that share an edge.
-    pub fn fill_path(&mut self, path: &str, colour: &str, opacity: f64, crisp: bool) {
-        let crisp = if crisp { " shape-rendering=\"crispEdges\"" } else { "" };
+    /// Fills a path given in SVG syntax. `seamless` leaves no seams between neighbours that share an edge.
+    pub fn fill_path(&mut self, path: &str, colour: &str, opacity: f64, seamless: bool) {
+        let crisp = match seamless {
+            true => format!(" stroke=\"{colour}\" stroke-width=\"0.3\" shape-rendering=\"crispEdges\""),
+            false => String::new(),
+        };
         let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{opacity}\"") } else { String::new() };
         let _ = writeln!(self.body, "<path d=\"{path}\" fill=\"{colour}\"{opacity}{crisp}/>");
     }

@@ -212,7 +212,8 @@ impl Chart {
     fn draw_data(&self, canvas: &mut Canvas, frame: &Frame) {
         canvas.clipped(frame.rect, |canvas| {
             for band in &self.bands {
-                for run in band.edges.split(|edge| edge.iter().any(|value| !value.is_finite())) {
+                let broken = |edge: &[f64; 3]| edge.iter().any(|value| !value.is_finite());
+                for run in band.edges.split(broken).filter(|run| run.len() > 1) {
                     let lower = run.iter().map(|[x, low, _]| frame.place([*x, *low]));
                     let upper = run.iter().rev().map(|[x, _, high]| frame.place([*x, *high]));
                     canvas.fill_path(&path(&lower.chain(upper).collect::<Vec<_>>(), true), &band.colour, 1.0, false);

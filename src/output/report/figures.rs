@@ -32,17 +32,22 @@ const KNOWN: [(&str, &str, bool); 7] = [
     ("states", "Internal variables of the friction law over the touching points: range and mean.", false),
 ];
 
-/// All figures of a folder as HTML; nothing where there are none.
-pub fn section(folder: &Path) -> Result<String, OutputError> {
+/// All figures of a folder as HTML, nothing where there are none; those of a study in the `order` of its quantities.
+pub fn section(folder: &Path, order: &[&str]) -> Result<String, OutputError> {
     let mut figures = vec![];
     for name in names(&folder.join("figures")) {
         let path = folder.join("figures").join(format!("{name}.svg"));
         let svg = fs::read_to_string(&path).map_err(OutputError::io("read", &path))?;
         let place = KNOWN.iter().position(|(known, _, _)| belongs(&name, known));
         let (caption, wide) = place.map_or_else(|| (said(&name), false), |k| (caption(&name, k), KNOWN[k].2));
-        figures.push((place.unwrap_or(KNOWN.len()), name, html::figure(&svg, &caption, wide)));
+        let quantity = name.split_once("-over-").and_then(|(own, _)| order.iter().position(|known| *known == own));
+        figures.push((
+            place.map_or_else(|| quantity.map(|k| k + KNOWN.len()), Some),
+            name,
+            html::figure(&svg, &caption, wide),
+        ));
     }
-    figures.sort_by(|a, b| (a.0, &a.1).cmp(&(b.0, &b.1)));
+    figures.sort_by(|a, b| (a.0.is_none(), a.0, &a.1).cmp(&(b.0.is_none(), b.0, &b.1)));
     let content: String = figures.into_iter().map(|(_, _, html)| html).collect();
     Ok(if content.is_empty() { content } else { format!("<div class=\"figures\">\n{content}</div>\n") })
 }

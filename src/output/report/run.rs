@@ -19,7 +19,7 @@ pub fn page(folder: &Path) -> Result<String, OutputError> {
     let title = title(&run["scene"]);
     let mut body = head(&run, &title, &records, &units);
     body += &html::section("Warnings", &html::list(&texts(&run["warnings"])));
-    body += &html::section("Figures", &figures::section(folder)?);
+    body += &html::section("Figures", &figures::section(folder, &[])?);
     body += &html::section("What was computed", &model(&run));
     body += &html::section("History", &history(&records, &units));
     body += &html::section("Energy", &energy(&records, &units));
@@ -65,7 +65,6 @@ fn head(run: &Value, title: &str, records: &[Record], units: &UnitLabels) -> Str
         (numbers::short(largest(|r| r.mu_global)), "largest mu_global = Fx/Fy"),
         (numbers::with_unit(largest(|r| r.force[0]), units, Quantity::Force), "largest resistance Fx per depth"),
         (numbers::with_unit(largest(|r| r.force[1]), units, Quantity::Force), "largest support Fy per depth"),
-        (run["model"]["unknowns"].as_u64().map_or_else(|| "–".into(), |n| n.to_string()), "unknowns"),
         (format!("{} / {}", count("nominal_steps"), count("newton_iterations")), "nominal steps / Newton iterations"),
         (wall, "wall time"),
     ];

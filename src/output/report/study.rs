@@ -26,7 +26,9 @@ pub fn page(folder: &Path) -> Result<String, OutputError> {
     let title = study["study"]["title"].as_str().filter(|title| !title.is_empty()).unwrap_or("study").to_owned();
     let mut body = head(&study, &title, &table);
     body += &html::section("Points that failed", &table.failed());
-    body += &html::section("Figures", &(film(folder, &table)? + &figures::section(folder)?));
+    let quantities = study["study"]["quantity"].as_array().into_iter().flatten();
+    let order: Vec<&str> = quantities.filter_map(|quantity| quantity["name"].as_str()).collect();
+    body += &html::section("Figures", &(film(folder, &table)? + &figures::section(folder, &order)?));
     body += &html::section("What was computed", &axes(&study["study"]));
     body += &html::section("Table", &table.html());
     body += &html::section("How to compute it again", &again(&study));
