@@ -127,7 +127,7 @@ fn a_run_is_told_whole() {
 fn touching(history: &Path) -> usize {
     let text = std::fs::read_to_string(history).unwrap();
     let at = text.lines().next().unwrap().split(',').position(|name| name == "contact_length").unwrap();
-    text.lines().skip(1).filter(|line| line.split(',').nth(at) != Some("0")).count()
+    text.lines().skip(1).filter(|line| line.split(',').nth(at).unwrap().parse::<f64>().unwrap() > 0.0).count()
 }
 
 /// What the page says about computing it again is true: the scene in it gives the same history.

@@ -281,3 +281,17 @@ fn the_shipped_study_shows_what_its_comments_say() {
         assert!(folder.join(format!("out/study/figures/{figure}-over-angle.svg")).is_file(), "{figure}");
     }
 }
+
+/// The study that the README explains can be used as it stands there.
+#[test]
+fn the_study_of_the_readme_is_a_study() {
+    let folder = folder("readme");
+    let readme = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let study = readme.split("## Studies").nth(1).and_then(|rest| rest.split("```toml\n").nth(1)).unwrap();
+    let study = study.split("```").next().unwrap();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/single_asperity.toml");
+    std::fs::write(folder.join("study.toml"), study.replace("../single_asperity.toml", scene.to_str().unwrap()))
+        .unwrap();
+    let [list, _] = sweep(&folder, &["--list"], 0);
+    assert!(list.contains("4 points: 4 pending"), "{list}");
+}

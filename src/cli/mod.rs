@@ -57,7 +57,8 @@ enum Command {
     ///
     /// Points run in parallel over the cores, each into a folder of its own below the study's. A point that is there already is
     /// not computed again, so the same command continues after Ctrl-C, and computes only what is new after a change. A point that
-    /// fails is recorded with its reason in study.csv, and the others are computed.
+    /// fails is recorded with its reason in study.csv, and the others are computed; the exit code is then 3 (no convergence, or a
+    /// scene that cannot be built) or 4 (an audit failed).
     Sweep(sweep::SweepArguments),
     /// Validate a scene and print the model chosen: what is modelled, what is left out and why, sizes.
     ///

@@ -84,7 +84,7 @@ fn draw_forces(canvas: &mut Canvas, chart: &frame::Frame, x: &super::Abscissa, r
     for (component, name, colour, dash) in [(0, "*F*_x", VERMILLION, "5 1.6"), (1, "*F*_y", BLUE, "")] {
         let force = |record: &Record| if record.converged { record.force[component] } else { f64::NAN };
         let points: Vec<_> = x.values.iter().zip(records).map(|(x, r)| chart.place([*x, force(r)])).collect();
-        canvas.polyline(&points, Stroke { dash, ..Stroke::solid(colour, 1.2) });
+        canvas.clipped(chart.rect, |canvas| canvas.polyline(&points, Stroke { dash, ..Stroke::solid(colour, 1.2) }));
         let at = [chart.rect.left + 10.0 + 30.0 * component as f64, chart.rect.top + 4.0];
         canvas.styled_text(at, name, Anchor::Start, super::text::SIZE, colour, 0.0);
     }
