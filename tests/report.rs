@@ -163,6 +163,7 @@ fn a_study_is_told_with_its_failed_points() {
         "deep inside",
         "mu_mean",
         "weighted by fy",
+        "2 from 10 to 38, equal differences",
         "asperity sweep study.toml",
         "values = ",
     ] {

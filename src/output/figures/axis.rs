@@ -32,7 +32,7 @@ impl Axis {
     /// Logarithmic axis over the powers of ten with exponents in `[min, max]`: whole decades, with 2 and 5 between few of them.
     pub fn decades([min, max]: [f64; 2]) -> Self {
         let few = max - min < 2.5;
-        let stride = ((max - min) / 6.0).ceil().max(1.0) as i32;
+        let stride = ((max - min) / 8.0).ceil().max(1.0) as i32;
         let power = |k: i32| {
             if few && (-3..=3).contains(&k) { plain_power(k) } else { format!("10^{{{}}}", label(f64::from(k), 0)) }
         };

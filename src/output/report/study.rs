@@ -117,32 +117,57 @@ fn head(study: &Value, title: &str, table: &Table) -> String {
 /// What is varied and what is collected, in words.
 fn axes(study: &Value) -> String {
     let list = |name: &str| study[name].as_array().cloned().unwrap_or_default();
-    let word = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-    let axis = |axis: &Value| {
-        let name = if axis["name"].is_null() { &axis["path"] } else { &axis["name"] };
-        let path = if axis["path"].is_null() { "(in formulas)".to_owned() } else { word(&axis["path"]) };
-        vec![Cell::word(word(name)), Cell::words(path), Cell::words(axis["values"].to_string())]
-    };
-    let quantity = |quantity: &Value| {
-        let of = |name: &str| word(&quantity[name]);
-        let mut said = format!("{} of {} over steps: {}", of("take"), of("column"), of("over"));
-        if ["mean", "integral"].contains(&of("take").as_str()) {
-            said += &format!(", along {}", of("along"));
-        }
-        if !quantity["weight"].is_null() {
-            said += &format!(", weighted by {}", of("weight"));
-        }
-        if quantity["within"].as_object().is_some_and(|windows| !windows.is_empty()) {
-            said += &format!(", within {}", quantity["within"]);
-        }
-        vec![Cell::word(of("name")), Cell::words(said)]
-    };
-    let axes: Vec<Vec<Cell>> = list("axis").iter().map(axis).collect();
-    let quantities: Vec<Vec<Cell>> = list("quantity").iter().map(quantity).collect();
+    let axes: Vec<Vec<Cell>> = list("axis").iter().flat_map(axis_rows).collect();
+    let quantities: Vec<Vec<Cell>> = list("quantity").iter().map(quantity_row).collect();
     let formulas: Vec<String> = list("formula").iter().map(word).collect();
     html::table("axes", &["axis", "key of the scene", "values"], &axes)
         + &html::list(&formulas)
         + &html::table("quantities", &["quantity", "how it is taken from the history"], &quantities)
+}
+
+/// A text as it is, a list by its entries.
+fn word(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Array(values) => values.iter().map(word).collect::<Vec<_>>().join(", "),
+        other => other.to_string(),
+    }
+}
+
+/// The axis, and what changes along with it.
+fn axis_rows(axis: &Value) -> Vec<Vec<Cell>> {
+    let name = word(if axis["name"].is_null() { &axis["path"] } else { &axis["name"] });
+    let path = |spec: &Value| if spec["path"].is_null() { "(see below)".to_owned() } else { word(&spec["path"]) };
+    let row = |name: &str, spec: &Value| {
+        vec![Cell::word(name), Cell::words(path(spec)), Cell::words(values(&spec["values"]))]
+    };
+    let zipped = axis["zip"].as_array().into_iter().flatten().map(|spec| row("", spec));
+    std::iter::once(row(&name, axis)).chain(zipped).collect()
+}
+
+fn values(values: &Value) -> String {
+    let range = |kind: &str, words: &str| {
+        let range = &values[kind];
+        let [from, to] = ["from", "to"].map(|end| range[end].as_f64().map_or_else(String::new, numbers::short));
+        (!range.is_null()).then(|| format!("{} from {from} to {to}, {words}", range["count"]))
+    };
+    let told = range("linear", "equal differences").or_else(|| range("logarithmic", "equal ratios"));
+    told.unwrap_or_else(|| word(values))
+}
+
+fn quantity_row(quantity: &Value) -> Vec<Cell> {
+    let of = |name: &str| word(&quantity[name]);
+    let mut said = format!("{} of {} over steps: {}", of("take"), of("column"), of("over"));
+    if ["mean", "integral"].contains(&of("take").as_str()) {
+        said += &format!(", along {}", of("along"));
+    }
+    if !quantity["weight"].is_null() {
+        said += &format!(", weighted by {}", of("weight"));
+    }
+    if quantity["within"].as_object().is_some_and(|windows| !windows.is_empty()) {
+        said += &format!(", within {}", quantity["within"]);
+    }
+    vec![Cell::word(of("name")), Cell::words(said)]
 }
 
 /// The animation of the first point that has one.
