@@ -13,6 +13,10 @@ use super::status::{Outcome, Status};
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
 
+/// Iterations above which the next step is half as long: an easy step takes about four, so two of half the length cost no
+/// more then (measured in `papers/cost`).
+const HARD: usize = 8;
+
 /// Time plan of an analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
@@ -174,7 +178,9 @@ impl March<'_> {
         }
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
-        (self.dt, self.law) = ((2.0 * self.dt).min(self.nominal), law);
+        let hard = done.iterations > HARD;
+        self.dt = if hard { (0.5 * dt).max(self.smallest) } else { (2.0 * self.dt).min(self.nominal) };
+        self.law = law;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
     }
