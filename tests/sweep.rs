@@ -151,6 +151,13 @@ fn what_is_there_is_not_computed_again_and_new_values_are() {
     let [_, said] = sweep(&folder, &[], 0);
     assert_eq!(said, "", "nothing was left to compute");
     assert_eq!(table(&out.join("study.csv")), before, "wall times included");
+    // a program that was killed leaves a point running, a torn file says nothing: both are computed again
+    for (row, left) in before.iter().zip([r#"{"status":"running","reason":"","wall_s":0.0}"#, "{\"sta"]) {
+        std::fs::write(out.join(&row["folder"]).join("point.json"), left).unwrap();
+    }
+    let [_, said] = sweep(&folder, &[], 0);
+    assert!(said.lines().count() == 2 && said.contains("2/2  point"), "{said}");
+    let before = table(&out.join("study.csv"));
     let more = STUDY.replace("values = [0.1, 0.2]", "values = [0.1, 0.2, 0.3]").replace("[6, 3]]", "[6, 3], [5, 2]]");
     std::fs::write(folder.join("study.toml"), more).unwrap();
     let [_, said] = sweep(&folder, &[], 0);

@@ -14,7 +14,7 @@ import sys
 
 from playwright.sync_api import sync_playwright
 
-FIGURES = """() => [...document.querySelectorAll('figure > svg')].map(svg => {
+FIGURES = """() => [...document.querySelectorAll('figure svg')].map(svg => {
     const box = svg.getBoundingClientRect();
     return { label: svg.getAttribute('aria-label'), wide: box.width, high: box.height, marks: svg.querySelectorAll('path, text').length };
 })"""

@@ -9,6 +9,8 @@ use crate::output::OutputError;
 
 /// Positive values that span at least this ratio are drawn on a logarithmic axis.
 const WIDE: f64 = 100.0;
+/// Most entries of the legend; of more lines only some are named, their colours run from the first to the last.
+const MOST_KEYS: usize = 12;
 /// Dash patterns that tell neighbouring lines apart in grey print.
 const DASHES: [&str; 4] = ["", "5 1.6", "2 1.4", "6 1.6 1.5 1.6"];
 
@@ -60,7 +62,7 @@ impl Lines {
             })
             .collect();
         let named = self.lines.iter().zip(&series).filter(|(line, _)| !line.label.is_empty());
-        let keys = named.map(|(line, series)| Key {
+        let keys = named.step_by(self.lines.len().div_ceil(MOST_KEYS).max(1)).map(|(line, series)| Key {
             label: plain(&line.label),
             colour: series.colour.clone(),
             dash: series.dash,

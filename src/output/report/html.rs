@@ -100,6 +100,8 @@ pub fn figure(svg: &str, caption: &str, wide: bool) -> String {
         }
         false => "",
     };
+    // small print of a wide figure would be lost in a narrow window
+    let svg = if wide { format!("<div class=\"pan\" tabindex=\"0\">{svg}</div>") } else { svg };
     format!("<figure{class}>\n{svg}\n{player}<figcaption>{caption}</figcaption>\n</figure>\n")
 }
 

@@ -61,7 +61,7 @@ pub fn summary(records: &[Record], units: &UnitLabels) -> Vec<Vec<Cell>> {
         Some(vec![
             Cell::word(name),
             Cell::number(with_unit(column(at), units, quantity)),
-            Cell::word(format!("{place}, y = {}", with_unit(at.drive[1], units, Quantity::Length))),
+            Cell::words(format!("{place}, y = {}", with_unit(at.drive[1], units, Quantity::Length))),
         ])
     };
     EXTREMES.into_iter().filter_map(row).collect()

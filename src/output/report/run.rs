@@ -111,7 +111,7 @@ fn history(records: &[Record], units: &UnitLabels) -> String {
 }
 
 fn energy(records: &[Record], units: &UnitLabels) -> String {
-    let heads = ["energy", "value", "share of the absolute work"];
+    let heads = ["energy", "value", "share of all work"];
     html::table("energies at the end", &heads, &numbers::energies(records, units))
 }
 
@@ -129,14 +129,14 @@ fn audits(audit: &Value) -> String {
         vec![
             Cell::word(check["name"].as_str().unwrap_or("?").replace('_', " ")),
             Cell::state(word, class),
+            Cell::words(check["meaning"].as_str().unwrap_or_default()),
             Cell::number(number("worst")),
             Cell::number(number("tolerance")),
             Cell::number(check["step"].as_u64().map_or_else(|| "–".into(), |step| step.to_string())),
-            Cell::words(check["meaning"].as_str().unwrap_or_default()),
         ]
     };
     let rows: Vec<Vec<Cell>> = audit["checks"].as_array().into_iter().flatten().map(row).collect();
-    html::table("audits", &["audit", "result", "worst", "accepted", "at step", "what is compared"], &rows)
+    html::table("audits", &["audit", "result", "what is compared", "worst", "accepted", "at step"], &rows)
 }
 
 fn again(run: &Value) -> String {
