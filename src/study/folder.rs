@@ -32,18 +32,20 @@ impl StudyFolder {
             "points": points.len(),
         });
         write_json(&self.root.join("study.json"), &record)?;
-        let mut index = csv::Writer::from_writer(vec![]);
-        let line = |name: &str, axes: Vec<&str>, folder: &str| -> Vec<String> {
-            [name].into_iter().chain(axes).chain([folder]).map(str::to_owned).collect()
-        };
+        self.write_index(study, points)
+    }
+
+    /// `index.csv`: number, values of the axes and folder of every point.
+    fn write_index(&self, study: &Study, points: &[Point]) -> Result<(), OutputError> {
         let path = self.root.join("index.csv");
         let bad = |error: csv::Error| OutputError::content(&path, error.to_string());
-        index.write_record(line("index", study.axis_names(), "folder")).map_err(bad)?;
+        let mut index = csv::Writer::from_writer(vec![]);
+        index.write_record(["index"].into_iter().chain(study.axis_names()).chain(["folder"])).map_err(bad)?;
         for point in points {
-            let values = study.coordinates(point.index);
-            let values = values.iter().map(String::as_str).collect();
-            let name = format!("points/{}", point.folder);
-            index.write_record(line(&point.index.to_string(), values, &name)).map_err(bad)?;
+            let mut cells = vec![point.index.to_string()];
+            cells.extend(study.coordinates(point.index));
+            cells.push(format!("points/{}", point.folder));
+            index.write_record(cells).map_err(bad)?;
         }
         let text = index.into_inner().map_err(|error| OutputError::content(&path, error.to_string()))?;
         write_atomic(&path, &text)

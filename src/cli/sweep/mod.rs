@@ -49,8 +49,11 @@ pub struct SweepArguments {
 /// Computes, lists or collects the points of a study.
 pub fn command(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let study = Study::load(&arguments.study, &arguments.sets)?;
-    let index =
-        if arguments.list || arguments.collect { None } else { arguments.index.map_or_else(array_index, one)? };
+    let index = match arguments.index {
+        _ if arguments.list || arguments.collect => None,
+        None => array_index()?,
+        given => given,
+    };
     let points = match index {
         Some(index) if index >= study.count() => return Err(beyond(index, study.count())),
         Some(index) => vec![study.point(index)?],
@@ -77,10 +80,6 @@ pub fn command(arguments: &SweepArguments) -> Result<Exit, Failure> {
             conclude(&collected, &folder, interrupted, arguments.quiet)
         }
     }
-}
-
-fn one(index: usize) -> Result<Option<usize>, Failure> {
-    Ok(Some(index))
 }
 
 /// The point that a job array asks for.
