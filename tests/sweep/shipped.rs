@@ -21,7 +21,7 @@ fn the_shipped_study_shows_what_its_comments_say() {
         assert!(number(row, "mu_first") > mu - 1e-9);
         if mu == 0.0 {
             assert!(
-                mean.abs() < 5e-3 && number(row, "work").abs() < 1e-6,
+                mean.abs() < 1e-8 && number(row, "work").abs() < 1e-10,
                 "a frictionless pass costs nothing: {row:?}"
             );
         } else {
