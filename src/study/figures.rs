@@ -7,6 +7,7 @@ use super::spec::FigureSpec;
 use super::table::Row;
 use super::{Point, Study, StudyFolder};
 use crate::output::figures::lines::{Line, Lines};
+use crate::output::tables::number;
 use crate::output::{OutputError, RunFolder};
 
 /// Figures of one quantity beyond this number are left out.
@@ -82,8 +83,10 @@ fn figure(study: &Study, rows: &[Row], (quantity, over, lines): Numbers, others:
     }
 }
 
+/// Name and value of an axis for a figure: numbers with four digits.
 fn said(axis: &Axis, place: usize) -> String {
-    format!("{} = {}", axis.name, axis.label(place))
+    let short = axis.numbers().and_then(|numbers| format!("{:.3e}", numbers[place]).parse().ok());
+    format!("{} = {}", axis.name, short.map_or_else(|| axis.label(place), number))
 }
 
 /// Axes that take more than one value and are not drawn.
@@ -96,7 +99,7 @@ fn name(study: &Study, numbers: Numbers, others: &[usize]) -> String {
     let (quantity, over, _) = numbers;
     let mut name = format!("{}-over-{}", study.spec.quantity[quantity].name, study.axes[over].name);
     for axis in apart(study, numbers) {
-        name += &format!("-{}", said(&study.axes[axis], others[axis]).replace(" = ", "-"));
+        name += &format!("-{}-{}", study.axes[axis].name, study.axes[axis].label(others[axis]));
     }
     name.chars().map(|c| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
 }

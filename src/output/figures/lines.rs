@@ -11,6 +11,8 @@ use crate::output::OutputError;
 const WIDE: f64 = 100.0;
 /// Most entries of the legend; of more lines only some are named, their colours run from the first to the last.
 const MOST_KEYS: usize = 12;
+/// Most points that are marked on a line.
+const MOST_DOTS: usize = 30;
 /// Dash patterns that tell neighbouring lines apart in grey print.
 const DASHES: [&str; 4] = ["", "5 1.6", "2 1.4", "6 1.6 1.5 1.6"];
 
@@ -58,7 +60,8 @@ impl Lines {
             .enumerate()
             .map(|(k, line)| {
                 let colour = palette::time(k, self.lines.len());
-                Series { dots: true, ..Series::new("", &colour, placed(line)) }.dashed(DASHES[k % DASHES.len()])
+                Series { dots: line.points.len() <= MOST_DOTS, ..Series::new("", &colour, placed(line)) }
+                    .dashed(DASHES[k % DASHES.len()])
             })
             .collect();
         let named = self.lines.iter().zip(&series).filter(|(line, _)| !line.label.is_empty());
