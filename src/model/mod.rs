@@ -3,6 +3,7 @@
 mod assembly;
 mod body;
 mod build;
+mod drag;
 mod equations;
 mod linearised;
 mod motion;
@@ -13,6 +14,7 @@ pub use crate::contact::{ContactStatus, Tangent};
 pub use assembly::{Evaluation, evaluate, explain, suggested_step};
 pub use body::{Body, BodyKind};
 pub use build::{BodySpec, Builder, ModelError, PairSpec};
+pub use drag::Drag;
 pub use equations::{Dof, Equations};
 pub use linearised::Linearised;
 pub use motion::{Control, Motion, Table};

@@ -81,7 +81,7 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "counters": {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": solver.factorisations,
-            "lagged_steps": outcome.lagged, "analyses": solver.analyses, "dense_rows": solver.dense_rows,
+            "lagged_steps": outcome.lagged, "snaps": outcome.snaps, "analyses": solver.analyses, "dense_rows": solver.dense_rows,
         },
         "sparse_lu_instead": {
             "indefinite": solver.indefinite, "coupled": solver.coupled, "inaccurate": solver.inaccurate,

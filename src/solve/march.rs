@@ -4,10 +4,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::math::LinearSolver;
-use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record, suggested_step};
+use crate::model::{
+    Control as MotionControl, Drag, Evaluation, Model, Motion, Record, State, Tangent, evaluate, record, suggested_step,
+};
 
 use super::Strategy;
-use super::newton::{NewtonReport, StepFailure, solve_step};
+use super::crossing::cross;
+use super::newton::{NewtonReport, StepFailure, solve_dragged, solve_step};
 use super::status::{Outcome, Status};
 
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
@@ -16,6 +19,9 @@ const VETO: f64 = 1.0 - 1e-9;
 /// Iterations above which the next step is half as long: an easy step takes about four, so two of half the length cost no
 /// more then (measured in `papers/cost`).
 const HARD: usize = 8;
+
+/// Cuts without a step between them after which the equilibrium path is taken to end.
+const LOST: usize = 2;
 
 /// Time plan of an analysis.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,12 +71,14 @@ pub fn march<E>(
         smallest,
         dt: nominal,
         law: f64::INFINITY,
+        failures: 0,
+        drag: None,
         outcome: Outcome::at(start),
     };
     for step in first + 1..=control.steps {
         let clock = Instant::now();
         let target = if step == control.steps { control.end } else { step as f64 * nominal };
-        let before = (march.outcome.iterations, march.outcome.cuts);
+        let before = (march.outcome.iterations, march.outcome.cuts, march.outcome.snaps);
         match march.reach(target) {
             Ok(found) => {
                 let outcome = &march.outcome;
@@ -78,6 +86,7 @@ pub fn march<E>(
                     step,
                     newton_iterations: outcome.iterations - before.0,
                     cuts: outcome.cuts - before.1,
+                    snaps: outcome.snaps - before.2,
                     wall_s: clock.elapsed().as_secs_f64(),
                     weakening: found.weakening,
                     ..record(model, &outcome.state, &found.evaluation)
@@ -120,6 +129,10 @@ struct March<'a> {
     dt: f64,
     /// Longest step that the law accepted last.
     law: f64,
+    /// Cuts since the last step.
+    failures: usize,
+    /// Made when it is needed first.
+    drag: Option<Drag>,
     outcome: Outcome,
 }
 
@@ -155,6 +168,10 @@ impl March<'_> {
                 Err(StepFailure::Interrupted) => return Err(Status::Interrupted { time }),
                 Err(failure) => {
                     self.outcome.cuts += 1;
+                    self.failures += 1;
+                    if self.failures == LOST && failure.lost() && self.cross(next) {
+                        continue;
+                    }
                     match failure {
                         StepFailure::Vetoed { step, .. } => self.law = step,
                         _ => self.dt = 0.5 * (next - time),
@@ -181,7 +198,31 @@ impl March<'_> {
         let hard = done.iterations > HARD;
         self.dt = if hard { (0.5 * dt).max(self.smallest) } else { (2.0 * self.dt).min(self.nominal) };
         self.law = law;
+        self.failures = 0;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
+    }
+
+    /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach.
+    fn cross(&mut self, until: f64) -> bool {
+        let (model, start, interrupt) = (self.model, &self.outcome.state, self.interrupt);
+        let drag = self.drag.get_or_insert_with(|| Drag::new(model));
+        let (solver, iterations) = (&mut *self.solver, &mut self.outcome.iterations);
+        let solve = |from: &State, time, strength| {
+            solve_dragged(model, from, time, (drag, strength), solver, interrupt, iterations)
+        };
+        let (Some(before), Ok(done)) =
+            (evaluate(model, start, start, Tangent::None), cross(model, drag, start, until, solve))
+        else {
+            return false;
+        };
+        let supplied = done.state.ledger.external_work - start.ledger.external_work;
+        let used = done.state.ledger.dissipated - start.ledger.dissipated;
+        let loss = supplied - used - (done.evaluation.strain_energy - before.strain_energy);
+        self.outcome.state = done.state;
+        self.outcome.state.ledger.snap_loss += loss;
+        self.outcome.snaps += 1;
+        self.failures = 0;
+        true
     }
 }

@@ -1,5 +1,7 @@
 //! Solving: Newton for one step, and the march through time that cuts and regrows steps.
 
+mod convergence;
+mod crossing;
 mod floating;
 mod interface_loop;
 mod march;

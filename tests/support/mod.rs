@@ -34,6 +34,9 @@ pub struct Pass {
     pub r: f64,
     pub length: f64,
     pub stress: f64,
+    /// Height of the asperities, and how far the tips overlap when one passes the other.
+    pub height: f64,
+    pub overlap: f64,
     /// Part of the path: positions of the upper asperity.
     pub from: f64,
     pub to: f64,
@@ -55,6 +58,8 @@ impl Default for Pass {
             r: 1.0,
             length: 1.0,
             stress: 1.0,
+            height: 0.4,
+            overlap: 0.2,
             from: -1.9,
             to: 1.9,
         }
@@ -63,12 +68,16 @@ impl Default for Pass {
 
 fn body(setup: &Pass, up: bool, h: f64) -> BodySpec {
     let l = setup.length;
-    let bump = Cosine { height: 0.4 * l, wavelength: 1.6 * l, centers: Some(vec![0.0]), count: None, spacing: None };
+    let bump =
+        Cosine { height: setup.height * l, wavelength: 1.6 * l, centers: Some(vec![0.0]), count: None, spacing: None };
     let (bump, flat) = (Profile::Cosine(bump), Profile::default());
     let (block, position) = if up {
         (Block { x: [-2.0 * l, 2.0 * l], y: [-l, 0.0], top: bump, bottom: flat }, [0.0, 0.0])
     } else {
-        (Block { x: [-l, l], y: [0.0, l], top: flat, bottom: bump }, [setup.from * l, 0.6 * l])
+        (
+            Block { x: [-l, l], y: [0.0, l], top: flat, bottom: bump },
+            [setup.from * l, (2.0 * setup.height - setup.overlap) * l],
+        )
     };
     let basis = match setup.lagrange {
         true => BasisSpec::Lagrange { degree: setup.degree },
