@@ -12,6 +12,8 @@ use crate::output::{OutputError, RunFolder};
 
 /// Figures of one quantity beyond this number are left out.
 const MOST: usize = 24;
+/// Longest value that stands in the name of a file.
+const LONGEST_LABEL: usize = 24;
 
 /// Draws the figures that the study asks for; returns how many there would have been beyond [`MOST`].
 pub(super) fn write(study: &Study, folder: &StudyFolder, points: &[Point], rows: &[Row]) -> Result<usize, OutputError> {
@@ -99,7 +101,9 @@ fn name(study: &Study, numbers: Numbers, others: &[usize]) -> String {
     let (quantity, over, _) = numbers;
     let mut name = format!("{}-over-{}", study.spec.quantity[quantity].name, study.axes[over].name);
     for axis in apart(study, numbers) {
-        name += &format!("-{}-{}", study.axes[axis].name, study.axes[axis].label(others[axis]));
+        // values that are whole tables are told by their number
+        let label = Some(study.axes[axis].label(others[axis])).filter(|label| label.len() <= LONGEST_LABEL);
+        name += &format!("-{}-{}", study.axes[axis].name, label.unwrap_or_else(|| others[axis].to_string()));
     }
     name.chars().map(|c| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
 }
