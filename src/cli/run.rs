@@ -78,7 +78,7 @@ fn default_folder(scene: &Path) -> PathBuf {
 }
 
 /// The first Ctrl-C asks the march to stop, the second stops the program at once.
-fn on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
+pub fn on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let raised = flag.clone();
     let handler = move || {

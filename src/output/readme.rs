@@ -16,7 +16,7 @@ run.json        the input with all defaults, versions, counters, audit results a
 history.csv     one row per nominal step
 interface.csv   one row per interface site and nominal step
 fields.pvd      opens all fields in ParaView (time series of fields/*.vtu)
-figures/        every figure as SVG (vector) and PNG
+figures/        every figure as SVG (vector) and PNG; animation.svg moves in a browser
 checkpoint/     what `asperity run --resume` goes on from; not needed to read the results
 README.txt      this file
 

@@ -4,7 +4,7 @@ use crate::contact::ContactDiscretization;
 use crate::geometry::Point;
 use crate::model::{InterfaceRow, Model, Record, State, interface_rows};
 use crate::output::checkpoint::Displacements;
-use crate::output::figures::{Data, choose};
+use crate::output::figures::{Data, choose, film};
 use crate::output::tables::{HistoryWriter, InterfaceWriter, read_history, read_interface};
 use crate::output::vtu::FieldSeries;
 use crate::output::{OutputError, RunFolder, UnitLabels};
@@ -146,6 +146,9 @@ impl<'a> Recorder<'a> {
         if frames.len() == instants.len() {
             data.write_bodies(&target, &frames)?;
         }
+        let film = film(&self.records).into_iter().filter_map(|k| Some((k, self.displacements.get(k)?)));
+        let film: Vec<_> = film.map(|(k, u)| data.brief_frame(k, &fields::bodies(self.model, u))).collect();
+        data.write_animation(&target, &film)?;
         Ok(())
     }
 }

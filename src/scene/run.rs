@@ -13,6 +13,7 @@ use crate::solve::{Control, Outcome, Status, proceed};
 use crate::verify::{Finding, step_warnings};
 
 use super::checkpoint::Checkpoint;
+use super::describe::{left_out, modelled};
 use super::recorder::Recorder;
 use super::spec::Scene;
 
@@ -144,6 +145,8 @@ fn summary(scene: &Scene, model: &Model, warnings: &[String], result: Value) -> 
         "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
         "scene": scene,
         "model": sizes(model),
+        "modelled": modelled(scene, model),
+        "left_out": left_out(scene, model),
         "warnings": warnings,
         "result": result,
     })

@@ -50,7 +50,7 @@ pub enum StepFailure {
         /// Longest step that the law accepts.
         step: f64,
     },
-    /// A motion under drag that found no equilibrium, see [`super::crossing`].
+    /// A motion under drag that found no equilibrium, see `solve::crossing`.
     #[error("moved on under drag the bodies do not come to rest")]
     Restless,
     /// Stopped from outside.

@@ -38,7 +38,7 @@ pub struct Outcome {
     pub cuts: usize,
     /// Steps that only a lagged bound reached: friction falls with the slip rate, see [`super::weakening`].
     pub lagged: usize,
-    /// Snaps that were crossed, see [`super::crossing`].
+    /// Snaps that were crossed, see `solve::crossing`.
     pub snaps: usize,
     /// Length of the step to be tried next; remembered from one nominal step to the next.
     pub dt: f64,
