@@ -5,6 +5,7 @@ mod body;
 mod build;
 mod equations;
 mod linearised;
+mod loaded;
 mod motion;
 mod record;
 mod state;
@@ -15,8 +16,9 @@ pub use body::{Body, BodyKind};
 pub use build::{BodySpec, Builder, ModelError, PairSpec};
 pub use equations::{Dof, Equations};
 pub use linearised::Linearised;
+pub use loaded::{Loaded, load};
 pub use motion::{Control, Motion, Table};
-pub use record::{InterfaceRow, Record, interface_rows, record};
+pub use record::{InterfaceRow, Record, interface_rows, record, resistance};
 pub use state::{Ledger, PairState, State, Trend};
 
 use std::sync::Arc;

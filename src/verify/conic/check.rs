@@ -1,0 +1,162 @@
+//! A converged step against the conic method: certificate, independent solution, verdict.
+
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use crate::contact::SiteLoad;
+use crate::model::{Evaluation, Model, State, record, resistance};
+use crate::solve::predict;
+
+use super::answer::{Answer, PairAnswer};
+use super::certificate::{Certificate, certify};
+use super::stage::Way;
+use super::step::{Solved, Unsolved, solve};
+use super::{LEAST, differ};
+
+/// Largest difference of `Fx`, `Fy` accepted, of the force.
+pub const FORCE: f64 = 1e-7;
+/// Largest difference of a site pressure or traction accepted, of the peak pressure; and of a displacement, of an element.
+pub const STRESS: f64 = 1e-6;
+
+/// What a solver claims of a step.
+#[derive(Clone, Copy)]
+pub struct Claim<'a> {
+    /// State at the end.
+    pub state: &'a State,
+    /// Its evaluation: site forces, statuses, reactions.
+    pub evaluation: &'a Evaluation,
+}
+
+impl Claim<'_> {
+    /// Displacements, site forces (nominal) and multipliers.
+    pub fn answer(&self) -> Answer {
+        let pair = |(state, found): (&crate::model::PairState, &crate::contact::InterfaceForces)| PairAnswer {
+            loads: found
+                .sites
+                .iter()
+                .map(|site| SiteLoad {
+                    arc: site.arc,
+                    pressure: site.pressure * site.stretch,
+                    traction: site.traction * site.stretch,
+                })
+                .collect(),
+            pressure: state.pressure.clone(),
+            traction: state.traction.clone(),
+        };
+        let pairs = self.state.pairs.iter().zip(&self.evaluation.interfaces).map(pair).collect();
+        Answer { u: self.state.u.clone(), pairs }
+    }
+}
+
+/// Verdict on a step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// The certificate holds and the conic method finds the same solution.
+    Agrees,
+    /// Nothing is proven, and why.
+    Inconclusive(String),
+    /// The claim is no solution, or not the one that the conic method finds.
+    Disagrees(String),
+}
+
+impl Verdict {
+    /// `agrees`, `inconclusive` or `disagrees`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Agrees => "agrees",
+            Self::Inconclusive(_) => "inconclusive",
+            Self::Disagrees(_) => "disagrees",
+        }
+    }
+
+    /// Why, where it does not agree.
+    pub fn reason(&self) -> &str {
+        match self {
+            Self::Agrees => "",
+            Self::Inconclusive(why) | Self::Disagrees(why) => why,
+        }
+    }
+}
+
+/// Relative differences of two solutions of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Difference {
+    /// Displacements, of an element length.
+    pub u: f64,
+    /// Site pressures, of the peak pressure.
+    pub p: f64,
+    /// Site tractions, of the peak pressure.
+    pub q: f64,
+    /// `Fx` and `Fy`, of the force.
+    pub force: [f64; 2],
+}
+
+/// Outcome for one step.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// Time at the end of the step.
+    pub time: f64,
+    /// What one programme at the claimed solution says.
+    pub certificate: Certificate,
+    /// Independent solution from the same start, or why there is none.
+    pub solved: Result<Solved, Unsolved>,
+    /// Its differences to the claim.
+    pub difference: Option<Difference>,
+    /// Wall time of certificate and solution in seconds.
+    pub wall_s: f64,
+    /// Verdict.
+    pub verdict: Verdict,
+}
+
+/// Checks what is claimed of the end of a step from `start`.
+pub fn check(model: &Model, start: &State, claim: Claim, interrupt: &AtomicBool) -> Check {
+    let clock = Instant::now();
+    let time = claim.state.time;
+    let certificate = certify(model, start, claim);
+    let guess = predict(model, start, time).u;
+    let solved = solve(model, start, guess.clone(), (time, Way::Tresca), interrupt)
+        .or_else(|first| solve(model, start, guess, (time, Way::DeSaxce), interrupt).map_err(|_| first));
+    let difference = solved.as_ref().ok().map(|solved| difference(model, claim, solved));
+    let verdict = judge(&certificate, &solved, difference.as_ref());
+    Check { time, certificate, solved, difference, wall_s: clock.elapsed().as_secs_f64(), verdict }
+}
+
+fn difference(model: &Model, claim: Claim, solved: &Solved) -> Difference {
+    let claimed = claim.answer();
+    let [p, q] = differ(model, &claimed.pairs, &solved.answer.pairs);
+    let moved = |(a, b): (&crate::geometry::Point, &crate::geometry::Point)| (a - b).amax() / model.element_size;
+    let force = record(model, claim.state, claim.evaluation).force;
+    let size = force[0].hypot(force[1]).max(LEAST * model.modulus * model.size());
+    let found = resistance(model, &solved.contact_forces);
+    Difference {
+        u: claimed.u.iter().zip(&solved.answer.u).map(moved).fold(0.0, f64::max),
+        p,
+        q,
+        force: std::array::from_fn(|c| (force[c] - found[c]).abs() / size),
+    }
+}
+
+fn judge(certificate: &Certificate, solved: &Result<Solved, Unsolved>, difference: Option<&Difference>) -> Verdict {
+    if let Some(why) = certificate.broken() {
+        return Verdict::Disagrees(why);
+    }
+    let unsure = || format!("not unique: friction takes {:.2} times the stiffness against slip", certificate.coupling);
+    let (solved, difference) = match (solved, difference) {
+        (Ok(solved), Some(difference)) => (solved, difference),
+        (Err(why), _) if certificate.unique() => return Verdict::Inconclusive(why.to_string()),
+        _ => return Verdict::Inconclusive(unsure()),
+    };
+    let Difference { u, p, q, force } = *difference;
+    let limits =
+        [("u", u, STRESS), ("p", p, STRESS), ("q", q, STRESS), ("Fx", force[0], FORCE), ("Fy", force[1], FORCE)];
+    let apart: Vec<String> = limits
+        .iter()
+        .filter(|(_, value, limit)| value.is_nan() || value > limit)
+        .map(|(name, value, limit)| format!("{name} differs by {value:.1e} (accepted {limit:.0e})"))
+        .collect();
+    match (apart.is_empty(), certificate.unique()) {
+        (true, _) => Verdict::Agrees,
+        (false, false) => Verdict::Inconclusive(unsure()),
+        (false, true) => Verdict::Disagrees(format!("{} after {} programmes", apart.join(", "), solved.programmes)),
+    }
+}
