@@ -2,6 +2,7 @@
 //!
 //! In the library, so that a program with laws of its own is three lines: see `examples/own_law`.
 
+mod certify;
 mod check;
 mod laws;
 mod outcome;
@@ -20,6 +21,7 @@ const AFTER_HELP: &str = "\
 Examples:
   asperity check examples/single_asperity.toml
   asperity run examples/single_asperity.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
+  asperity certify examples/single_asperity.toml
   asperity laws coulomb
   asperity laws rate-and-state --probe examples/probe.toml
 
@@ -49,6 +51,12 @@ enum Command {
     /// The folder holds history.csv (one row per nominal step), interface.csv, fields/*.vtu with fields.pvd, figures
     /// and run.json. Ctrl-C stops at the next iteration and keeps everything computed so far (exit code 5).
     Run(RunArguments),
+    /// Compute a scene and check every step against a second, independent method.
+    ///
+    /// As `run --certify`: each accepted step is solved once more from its start by a sequence of conic programmes (Clarabel)
+    /// and its contact forces are certified; certify.csv holds the differences, and a summary is printed. Exit code 4
+    /// if the methods disagree.
+    Certify(RunArguments),
     /// Validate a scene and print the model chosen: what is modelled, what is left out and why, sizes.
     ///
     /// Nothing is computed and nothing is written. Exit code 2 if the scene cannot be used.
@@ -95,6 +103,9 @@ struct RunArguments {
     /// Folder of the results; made if it does not exist [default: out/<name of the scene>].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Check every step against the conic method, see `asperity certify`; takes several times as long.
+    #[arg(long)]
+    certify: bool,
     /// Print errors only.
     #[arg(long)]
     quiet: bool,
@@ -103,7 +114,8 @@ struct RunArguments {
 /// Runs the command of the command line and turns its outcome into an exit code; errors go to stderr.
 pub fn main() -> ExitCode {
     let outcome = match &Cli::parse().command {
-        Command::Run(arguments) => run::run(arguments),
+        Command::Run(arguments) => run::run(arguments, arguments.certify),
+        Command::Certify(arguments) => run::run(arguments, true),
         Command::Check(arguments) => check::check(arguments),
         Command::Laws { name, probe, out } => laws::laws(name.as_deref(), probe.as_deref(), out.as_deref()),
         Command::Schema => schema(),

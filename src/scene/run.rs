@@ -1,5 +1,6 @@
 //! A scene computed into a folder: march, record, draw, and say in `run.json` how it went.
 
+use std::cell::RefCell;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -8,10 +9,13 @@ use serde_json::{Value, json};
 use crate::contact::ContactDiscretization;
 use crate::math::Counters;
 use crate::model::{Model, Pair, Record, State};
+use crate::output::tables::CertifyRow;
 use crate::output::{OutputError, RunFolder};
-use crate::solve::{Control, Outcome, Status, march};
+use crate::solve::{Control, Outcome, Status, Tools, accompanied};
+use crate::verify::conic::{Companion, Stage};
 use crate::verify::{Audit, Expectations, Finding, step_warnings};
 
+use super::certify::{self, Certifier};
 use super::recorder::Recorder;
 use super::spec::Scene;
 
@@ -22,6 +26,8 @@ pub struct RunReport {
     pub outcome: Outcome,
     /// Audits of all records, also of a march that ended early.
     pub findings: Vec<Finding>,
+    /// Accepted steps that were certified.
+    pub certified: Vec<CertifyRow>,
 }
 
 /// The nominal steps of a scene.
@@ -56,15 +62,25 @@ pub fn run(
     let mut audit = Audit::new(Expectations::of(model));
     let mut reached = 0;
     let mut solver = scene.solution.solver.create();
-    let outcome = march(model, state, &plan, solver.as_mut(), interrupt, |report| {
+    let mut certifier = Certifier::new(scene, folder)?;
+    let fresh = RefCell::default();
+    let mut companion =
+        Companion { certified: scene.solution.certify.then_some(&fresh), interrupt, stage: Stage::default() };
+    let tools = Tools { solver: solver.as_mut(), witness: &mut companion };
+    let outcome = accompanied(model, state, &plan, tools, interrupt, |report| {
         recorder.step(&report)?;
+        certifier.take(report.record.step, fresh.take())?;
         audit.take(&report.record);
         reached = report.record.step;
         watch(&report.record);
         Ok::<(), OutputError>(())
     })?;
+    certifier.take(reached + 1, fresh.take())?;
     recorder.finish(scene)?;
-    let report = RunReport { outcome, findings: audit.findings() };
+    certifier.draw(scene)?;
+    let mut findings = audit.findings();
+    findings.extend(certifier.findings());
+    let report = RunReport { outcome, findings, certified: certifier.rows };
     warnings.extend(report.findings.iter().filter(|finding| finding.warns()).map(Finding::to_string));
     let result = conclusion(&report, &solver.counters(), reached, clock.elapsed().as_secs_f64());
     folder.write_run(&summary(scene, model, &warnings, result))?;
@@ -80,11 +96,12 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "counters": {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": solver.factorisations,
-            "lagged_steps": outcome.lagged, "analyses": solver.analyses, "dense_rows": solver.dense_rows,
+            "lagged_steps": outcome.lagged, "rescued_steps": outcome.rescued, "analyses": solver.analyses, "dense_rows": solver.dense_rows,
         },
         "sparse_lu_instead": {
             "indefinite": solver.indefinite, "coupled": solver.coupled, "inaccurate": solver.inaccurate,
         },
+        "certified": certify::summary(&report.certified),
         "audit": {
             "passed": !report.findings.iter().any(Finding::failed),
             "checks": report.findings,

@@ -7,8 +7,9 @@ use crate::math::LinearSolver;
 use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record, suggested_step};
 
 use super::Strategy;
-use super::newton::{NewtonReport, StepFailure, solve_step};
+use super::newton::{NewtonReport, StepFailure, solve_from, solve_step};
 use super::status::{Outcome, Status};
+use super::witness::{Effort, Witness};
 
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
@@ -47,6 +48,29 @@ pub fn march<E>(
     control: &Control,
     solver: &mut dyn LinearSolver,
     interrupt: &AtomicBool,
+    report: impl FnMut(StepReport) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    accompanied(model, start, control, Tools { solver, witness: &mut () }, interrupt, report)
+}
+
+/// What a march works with.
+pub struct Tools<'a> {
+    /// Solver of the linear systems.
+    pub solver: &'a mut dyn LinearSolver,
+    /// Its companion.
+    pub witness: &'a mut dyn Witness,
+}
+
+/// [`march`] with a companion.
+///
+/// # Errors
+/// As [`march`].
+pub fn accompanied<E>(
+    model: &Model,
+    start: State,
+    control: &Control,
+    tools: Tools,
+    interrupt: &AtomicBool,
     mut report: impl FnMut(StepReport) -> Result<(), E>,
 ) -> Result<Outcome, E> {
     let nominal = control.end / control.steps as f64;
@@ -55,7 +79,7 @@ pub fn march<E>(
     let mut march = March {
         model,
         strategy: control.strategy,
-        solver,
+        tools,
         interrupt,
         nominal,
         smallest,
@@ -105,10 +129,10 @@ fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
 }
 
 /// A march under way.
-struct March<'a> {
+struct March<'a, 't> {
     model: &'a Model,
     strategy: Strategy,
-    solver: &'a mut dyn LinearSolver,
+    tools: Tools<'t>,
     interrupt: &'a AtomicBool,
     nominal: f64,
     smallest: f64,
@@ -126,7 +150,7 @@ struct Reached {
     weakening: f64,
 }
 
-impl March<'_> {
+impl March<'_, '_> {
     /// Sub-steps up to `target`.
     fn reach(&mut self, target: f64) -> Result<Reached, Status> {
         let mut weakening = 0.0_f64;
@@ -165,17 +189,35 @@ impl March<'_> {
 
     /// One step; accepted unless the law finds it too long.
     fn step(&mut self, next: f64) -> Result<NewtonReport, StepFailure> {
-        let (start, iterations) = (&self.outcome.state, &mut self.outcome.iterations);
-        let mut done = solve_step(self.model, start, next, self.strategy, self.solver, self.interrupt, iterations)?;
-        let dt = next - start.time;
+        let (clock, before) = (Instant::now(), self.outcome.iterations);
+        let start = &self.outcome.state;
+        let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);
+        let found = solve_step(self.model, start, next, self.strategy, solver, self.interrupt, iterations);
+        let rescued = found.is_err();
+        let mut done = found.or_else(|failure| self.rescue(next, failure))?;
+        let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
         let law = suggested_step(self.model, start, &done.evaluation, dt);
         if law < VETO * dt {
             return Err(StepFailure::Vetoed { taken: dt, step: law });
         }
+        let effort = Effort { iterations: self.outcome.iterations - before, wall_s: clock.elapsed().as_secs_f64() };
+        self.tools.witness.accepted(self.model, start, &done, effort);
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
+        self.outcome.rescued += usize::from(rescued);
         (self.dt, self.law) = ((2.0 * self.dt).min(self.nominal), law);
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
+    }
+
+    /// Asks the companion for another way to a step that failed.
+    fn rescue(&mut self, next: f64, failure: StepFailure) -> Result<NewtonReport, StepFailure> {
+        let Outcome { state: start, iterations, .. } = &mut self.outcome;
+        let lost =
+            matches!(failure, StepFailure::Iterations { .. } | StepFailure::Inverted(_) | StepFailure::Linear(_));
+        let guess = lost.then(|| self.tools.witness.rescue(self.model, start, next, self.interrupt)).flatten();
+        let Some(guess) = guess else { return Err(failure) };
+        let solver = &mut *self.tools.solver;
+        solve_from(self.model, start, guess, self.strategy, solver, self.interrupt, iterations).map_err(|_| failure)
     }
 }

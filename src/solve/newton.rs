@@ -115,6 +115,22 @@ pub fn solve_step(
     Err(failure.unwrap_or(StepFailure::Inverted(0)))
 }
 
+/// Solves the step from `start` to the time of `guess`, from this guess alone.
+///
+/// # Errors
+/// As [`solve_step`].
+pub fn solve_from(
+    model: &Model,
+    start: &State,
+    guess: State,
+    strategy: Strategy,
+    solver: &mut dyn LinearSolver,
+    interrupt: &AtomicBool,
+    iterations: &mut usize,
+) -> Result<NewtonReport, StepFailure> {
+    Step { model, start, strategy, solver, interrupt, iterations, weakens: false }.attempt(guess)
+}
+
 /// A step being solved.
 struct Step<'a> {
     model: &'a Model,

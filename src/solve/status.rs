@@ -36,11 +36,13 @@ pub struct Outcome {
     pub cuts: usize,
     /// Steps that only a lagged bound reached: friction falls with the slip rate, see [`super::weakening`].
     pub lagged: usize,
+    /// Steps that only the conic method reached, see [`super::Witness`].
+    pub rescued: usize,
 }
 
 impl Outcome {
     /// Nothing done yet.
     pub fn at(state: State) -> Self {
-        Self { status: Status::Done, state, iterations: 0, steps: 0, cuts: 0, lagged: 0 }
+        Self { status: Status::Done, state, iterations: 0, steps: 0, cuts: 0, lagged: 0, rescued: 0 }
     }
 }

@@ -36,10 +36,10 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Which condition is broken, in words.
-    pub fn broken(&self) -> Option<String> {
+    /// Its numbers with their names.
+    fn named(&self) -> [(&'static str, f64); 8] {
         let Violation { equilibrium, sign, complementarity, cone, projection } = self.violation;
-        let named = [
+        [
             ("equilibrium", equilibrium),
             ("the sign of gap or pressure", sign),
             ("complementarity", complementarity),
@@ -48,8 +48,17 @@ impl Certificate {
             ("the status of a site", self.status),
             ("a programme at the solution (increment)", self.increment),
             ("a programme at the solution (forces)", self.forces),
-        ];
-        let (name, worst) = named.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        ]
+    }
+
+    /// The largest of its numbers, [`STRESS`] being accepted; `NaN` if there is one.
+    pub fn worst(&self) -> f64 {
+        self.named().into_iter().fold(0.0, |m: f64, (_, v)| if m.is_nan() || v.is_nan() { f64::NAN } else { m.max(v) })
+    }
+
+    /// Which condition is broken, in words.
+    pub fn broken(&self) -> Option<String> {
+        let (name, worst) = self.named().into_iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
         (worst.is_nan() || worst > STRESS).then(|| format!("the claimed solution breaks {name} by {worst:.1e}"))
     }
 
@@ -60,7 +69,7 @@ impl Certificate {
 }
 
 /// Certifies what is claimed of the end of a step from `start`.
-pub fn certify(model: &Model, start: &State, claim: Claim) -> Certificate {
+pub fn certify(model: &Model, start: &State, claim: Claim, stage: &mut Stage) -> Certificate {
     let answer = claim.answer();
     let (time, dt) = (claim.state.time, claim.state.time - start.time);
     let mut out = Certificate {
@@ -78,7 +87,7 @@ pub fn certify(model: &Model, start: &State, claim: Claim) -> Certificate {
     let states = states(model, &loaded, claim, dt);
     out.status = states.iter().fold(0.0, |m, state| m.max(state.contradiction));
     out.direct = states.iter().filter(|state| state.direct).count();
-    match Stage::default().set(model, &loaded, &answer.pairs, (Way::Tresca, dt)) {
+    match stage.set(model, &loaded, &answer.pairs, (Way::Tresca, dt)) {
         Ok(staged) => out.programme(model, &answer.pairs, &states, staged),
         Err(error) => out.unsolved = Some(error.to_string()),
     }

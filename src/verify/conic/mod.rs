@@ -18,35 +18,48 @@ mod answer;
 mod bound;
 mod certificate;
 mod check;
+mod companion;
 mod conditions;
 pub mod programme;
 mod stage;
 mod step;
+mod tally;
 pub mod uniqueness;
 
 pub use answer::{Answer, PairAnswer};
 pub use certificate::{Certificate, certify};
-pub use check::{Check, Claim, Difference, FORCE, STRESS, Verdict, check};
+pub use check::{Check, Claim, Difference, FORCE, STRESS, Verdict, check, from_start};
+pub use companion::{Certified, Companion};
 pub use conditions::Violation;
-pub use stage::Way;
+pub use stage::{Stage, Way};
 pub use step::{Solved, Unsolved, solve};
+pub use tally::Tally;
 
+use crate::contact::SiteLoad;
 use crate::model::Model;
 
 /// Stresses below this share of `E` are not told from zero.
 const LEAST: f64 = 1e-6;
 
-/// Largest difference of the pressures and of the tractions of the sites, of the peak pressure; `NaN` where the sites are not the
-/// same ones.
+/// Largest difference of the pressures and of the tractions of the sites, of the peak pressure. Where segments moved so that the
+/// sites are not the same ones the multipliers are compared.
 fn differ(model: &Model, a: &[PairAnswer], b: &[PairAnswer]) -> [f64; 2] {
-    let sites = |pairs: &[PairAnswer]| pairs.iter().map(|pair| pair.loads.len()).collect::<Vec<_>>();
-    if sites(a) != sites(b) {
-        return [f64::NAN; 2];
+    let peak = a.iter().chain(b).flat_map(|pair| &pair.loads).map(|load| load.pressure);
+    let peak = peak.fold(LEAST * model.modulus, f64::max);
+    let largest = |a: &mut dyn Iterator<Item = f64>, b: &mut dyn Iterator<Item = f64>| {
+        let worse = |m: f64, v: f64| if m.is_nan() || v.is_nan() { f64::NAN } else { m.max(v.abs() / peak) };
+        a.zip(b).map(|(a, b)| a - b).fold(0.0, worse)
+    };
+    let mut worst = [0.0_f64; 2];
+    for (a, b) in a.iter().zip(b) {
+        let found = if a.loads.len() == b.loads.len() {
+            let of = |kind: fn(&SiteLoad) -> f64| largest(&mut a.loads.iter().map(kind), &mut b.loads.iter().map(kind));
+            [of(|load| load.pressure), of(|load| load.traction)]
+        } else {
+            let of = |a: &[f64], b: &[f64]| largest(&mut a.iter().copied(), &mut b.iter().copied());
+            [of(&a.pressure, &b.pressure), of(&a.traction, &b.traction)]
+        };
+        (0..2).for_each(|c| worst[c] = if found[c].is_nan() { f64::NAN } else { worst[c].max(found[c]) });
     }
-    let loads = || a.iter().flat_map(|pair| &pair.loads).zip(b.iter().flat_map(|pair| &pair.loads));
-    let peak = loads().fold(LEAST * model.modulus, |m, (a, b)| m.max(a.pressure).max(b.pressure));
-    loads().fold([0.0; 2], |[p, q], (a, b)| {
-        let worse = |m: f64, v: f64| if v.is_nan() { v } else { m.max(v.abs() / peak) };
-        [worse(p, a.pressure - b.pressure), worse(q, a.traction - b.traction)]
-    })
+    worst
 }

@@ -24,10 +24,11 @@ pub enum Way {
     DeSaxce,
 }
 
-/// Share of the mean diagonal by which an indefinite matrix is first shifted; ten times as much until it is definite.
-const SHIFT: f64 = 1e-3;
+/// Shifts tried to make a matrix positive definite, of its mean diagonal: hardly any for a body that only contact holds, whose
+/// matrix is singular; then much, so that no direction is left soft by chance.
+const SHIFTS: [f64; 7] = [0.0, 1e-10, 1e-8, 1e-3, 1e-2, 0.1, 1.0];
 
-/// Condenses one linearisation after the other; unknowns once touched stay in the programme.
+/// Condenses one linearisation after the other; the analysis of the bodies and what is left of their factorisation is kept.
 #[derive(Default)]
 pub struct Stage {
     touched: BTreeSet<usize>,
@@ -77,14 +78,16 @@ impl Stage {
         Ok(Staged { programme, reduced })
     }
 
-    /// Analyses the bodies again where contact reaches an unknown for the first time.
+    /// Analyses the bodies again where contact reaches an unknown for the first time, or has left most of those kept.
     fn keep(&mut self, model: &Model, loaded: &Loaded, facing: &[Vec<bool>]) -> Result<(), SolveError> {
-        let before = self.touched.len();
         let sites = loaded.sites.iter().flatten().zip(facing.iter().flatten()).filter(|(_, facing)| **facing);
         let rows = sites.flat_map(|(site, _)| site.gap_row.iter().chain(&site.slip_row));
-        self.touched.extend(rows.map(|(e, _)| *e));
-        self.touched.extend(loaded.geometric.iter().flat_map(|(i, j, _)| [*i, *j]));
-        if self.condensed.is_none() || self.touched.len() > before {
+        let mut wanted: BTreeSet<usize> = rows.map(|(e, _)| *e).collect();
+        wanted.extend(loaded.geometric.iter().flat_map(|(i, j, _)| [*i, *j]));
+        let most = 2 * wanted.len();
+        if self.condensed.is_none() || !wanted.is_subset(&self.touched) || self.touched.len() > most {
+            let both: BTreeSet<usize> = wanted.union(&self.touched).copied().collect();
+            self.touched = if both.len() > most { wanted } else { both };
             let boundary: Arc<[usize]> = self.touched.iter().copied().collect();
             self.condensed = Some(Condensed::new(model.equations.pattern.clone(), boundary)?);
         }
@@ -131,14 +134,14 @@ fn stiffness(condensed: &Condensed, loaded: &Loaded) -> DMatrix<f64> {
 fn definite(matrix: DMatrix<f64>) -> DMatrix<f64> {
     let n = matrix.nrows();
     let mean = matrix.trace().abs() / n.max(1) as f64;
-    let mut shift = 0.0;
-    loop {
-        let tried = &matrix + DMatrix::identity(n, n) * shift;
+    for shift in SHIFTS {
+        let tried = &matrix + DMatrix::identity(n, n) * (shift * mean);
         if Cholesky::new(tried.clone()).is_some() {
             return tried;
         }
-        shift = f64::max(10.0 * shift, SHIFT * mean);
     }
+    let bound = matrix.row_iter().map(|row| row.abs().sum()).fold(0.0, f64::max);
+    matrix + DMatrix::identity(n, n) * bound
 }
 
 /// Length of the increments to be expected: forces over `E`, or the deepest overlap.

@@ -11,8 +11,12 @@ use super::conditions::{Violation, violation};
 use super::programme::Solution;
 use super::stage::{Stage, Staged, Way};
 
-/// Violation at which a step counts as solved.
-pub const ACCURACY: f64 = 1e-8;
+/// Violation at which the iteration stops.
+const GOAL: f64 = 1e-9;
+/// Violation with which a step counts as solved where it does not fall any more.
+pub const ACCEPTED: f64 = 1e-6;
+/// Programmes without the violation falling to half of the best before, after which it has come to rest.
+const PATIENCE: usize = 4;
 /// Programmes at most.
 const MOST: usize = 60;
 /// Increments are halved so often while a body is turned inside out.
@@ -66,39 +70,49 @@ pub fn solve(
     start: &State,
     u: Vec<Point>,
     (time, way): (f64, Way),
+    stage: &mut Stage,
     interrupt: &AtomicBool,
 ) -> Result<Solved, Unsolved> {
-    let mut step = Step { model, start, time, stage: Stage::default(), iterations: 0 };
+    let mut step = Step { model, start, time, stage, iterations: 0 };
     let mut answer = Answer::guess(model, start, u);
     let mut loaded = step.load(&answer).ok_or(Unsolved::Inverted)?;
-    let mut best = f64::INFINITY;
+    let mut best: Option<Solved> = None;
+    let (mut smallest, mut since) = (f64::INFINITY, 0);
     for programmes in 1..=MOST {
         if interrupt.load(Ordering::Relaxed) {
             return Err(Unsolved::Interrupted);
         }
-        (answer, loaded) = step.advance(&answer, &loaded, way)?;
+        (answer, loaded) = match step.advance(&answer, &loaded, way) {
+            Err(Unsolved::Programme(_)) if best.is_some() => break,
+            next => next?,
+        };
         let left = violation(model, &loaded, &answer, time - start.time, LEAST * model.modulus);
-        best = best.min(left.worst());
-        if left.worst() <= ACCURACY {
-            let contact_forces = loaded.contact_forces;
-            return Ok(Solved {
-                answer,
-                violation: left,
-                contact_forces,
-                way,
-                programmes,
-                iterations: step.iterations,
-            });
+        let size = left.worst();
+        if std::env::var_os("CONIC").is_some() {
+            eprintln!("  {programmes} {left:?}");
+        }
+        if size < smallest {
+            (smallest, since) = (size, if size < 0.5 * smallest { 0 } else { since + 1 });
+            let (answer, contact_forces) = (answer.clone(), loaded.contact_forces.clone());
+            let solved = Solved { answer, violation: left, contact_forces, way, programmes, iterations: 0 };
+            best = best.filter(|_| size > ACCEPTED).or((size <= ACCEPTED).then_some(solved));
+        } else {
+            since += 1;
+        }
+        if smallest <= GOAL || (best.is_some() && since >= PATIENCE) {
+            break;
         }
     }
-    Err(Unsolved::Restless { programmes: MOST, violation: best })
+    let iterations = step.iterations;
+    let best = best.map(|solved| Solved { iterations, ..solved });
+    best.ok_or(Unsolved::Restless { programmes: MOST, violation: smallest })
 }
 
 struct Step<'a> {
     model: &'a Model,
     start: &'a State,
     time: f64,
-    stage: Stage,
+    stage: &'a mut Stage,
     iterations: usize,
 }
 
