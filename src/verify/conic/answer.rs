@@ -67,6 +67,37 @@ impl Answer {
         }
     }
 
+    /// Displacement unknowns in elements and site forces in units of `E`, one after the other.
+    pub fn flat(&self, model: &Model) -> Vec<f64> {
+        let mut out = vec![0.0; model.equations.count];
+        for (node, u) in self.u.iter().enumerate() {
+            (0..2).for_each(|c| {
+                if let Some(e) = model.equations.unknown(node, c) {
+                    out[e] = u[c] / model.element_size;
+                }
+            });
+        }
+        let loads = self.pairs.iter().flat_map(|pair| &pair.loads);
+        out.extend(loads.flat_map(|load| [load.pressure / model.modulus, load.traction / model.modulus]));
+        out
+    }
+
+    /// The inverse of [`Self::flat`].
+    pub fn set_flat(&mut self, model: &Model, values: &[f64]) {
+        let (u, forces) = values.split_at(model.equations.count);
+        for (node, x) in self.u.iter_mut().enumerate() {
+            (0..2).for_each(|c| {
+                if let Some(e) = model.equations.unknown(node, c) {
+                    x[c] = u[e] * model.element_size;
+                }
+            });
+        }
+        let loads = self.pairs.iter_mut().flat_map(|pair| &mut pair.loads);
+        for (load, force) in loads.zip(forces.chunks(2)) {
+            (load.pressure, load.traction) = (force[0] * model.modulus, force[1] * model.modulus);
+        }
+    }
+
     /// As a trial state at the end of a step from `start`.
     pub fn state(&self, model: &Model, start: &State, time: f64) -> State {
         let mut state = start.clone();

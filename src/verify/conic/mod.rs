@@ -14,6 +14,7 @@
 //! and make the convergence linear: the matrix (symmetric part of the geometric stiffness of contact), the rows (virtual gap and slip
 //! for the derivatives of gap and slip), and the friction bound, which belongs to the pressures of the last iterate ([`Way`]).
 
+mod acceleration;
 mod answer;
 mod bound;
 mod certificate;

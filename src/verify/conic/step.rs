@@ -6,6 +6,7 @@ use crate::geometry::Point;
 use crate::model::{Loaded, Model, State, load};
 
 use super::LEAST;
+use super::acceleration::Acceleration;
 use super::answer::{Answer, advance};
 use super::conditions::{Violation, violation};
 use super::programme::Solution;
@@ -17,6 +18,10 @@ const GOAL: f64 = 1e-9;
 pub const ACCEPTED: f64 = 1e-6;
 /// Programmes without the violation falling to half of the best before, after which it has come to rest.
 const PATIENCE: usize = 4;
+/// Violation below which the iteration is accelerated where it falls by less than [`SLOW`].
+const NEAR: f64 = 0.1;
+/// See [`NEAR`].
+const SLOW: f64 = 0.3;
 /// Programmes at most.
 const MOST: usize = 60;
 /// Increments are halved so often while a body is turned inside out.
@@ -73,45 +78,77 @@ pub fn solve(
     stage: &mut Stage,
     interrupt: &AtomicBool,
 ) -> Result<Solved, Unsolved> {
-    let mut step = Step { model, start, time, stage, iterations: 0 };
+    let mut step = Step { model, start, time, way, stage, iterations: 0 };
     let mut answer = Answer::guess(model, start, u);
     let mut loaded = step.load(&answer).ok_or(Unsolved::Inverted)?;
-    let mut best: Option<Solved> = None;
-    let (mut smallest, mut since) = (f64::INFINITY, 0);
-    for programmes in 1..=MOST {
+    let mut course = Course::default();
+    let mut acceleration = Acceleration::default();
+    while !course.ended() {
         if interrupt.load(Ordering::Relaxed) {
             return Err(Unsolved::Interrupted);
         }
-        (answer, loaded) = match step.advance(&answer, &loaded, way) {
-            Err(Unsolved::Programme(_)) if best.is_some() => break,
+        let (found, at) = match step.advance(&answer, &loaded) {
+            Err(Unsolved::Programme(_)) if course.best.is_some() => break,
             next => next?,
         };
-        let left = violation(model, &loaded, &answer, time - start.time, LEAST * model.modulus);
-        let size = left.worst();
-        if std::env::var_os("CONIC").is_some() {
-            eprintln!("  {programmes} {left:?}");
-        }
-        if size < smallest {
-            (smallest, since) = (size, if size < 0.5 * smallest { 0 } else { since + 1 });
-            let (answer, contact_forces) = (answer.clone(), loaded.contact_forces.clone());
-            let solved = Solved { answer, violation: left, contact_forces, way, programmes, iterations: 0 };
-            best = best.filter(|_| size > ACCEPTED).or((size <= ACCEPTED).then_some(solved));
-        } else {
-            since += 1;
-        }
-        if smallest <= GOAL || (best.is_some() && since >= PATIENCE) {
-            break;
-        }
+        let left = violation(model, &at, &found, time - start.time, LEAST * model.modulus);
+        let slow = course.take(left, || Solved {
+            answer: found.clone(),
+            violation: left,
+            contact_forces: at.contact_forces.clone(),
+            way,
+            programmes: 0,
+            iterations: 0,
+        });
+        let mixed = slow.then(|| step.mix(&mut acceleration, &answer, &found)).flatten();
+        (answer, loaded) = mixed.unwrap_or((found, at));
     }
-    let iterations = step.iterations;
-    let best = best.map(|solved| Solved { iterations, ..solved });
-    best.ok_or(Unsolved::Restless { programmes: MOST, violation: smallest })
+    let (programmes, iterations) = (course.programmes, step.iterations);
+    let best = course.best.map(|solved| Solved { programmes, iterations, ..solved });
+    best.ok_or(Unsolved::Restless { programmes, violation: course.smallest })
+}
+
+/// How the violation went so far.
+struct Course {
+    programmes: usize,
+    smallest: f64,
+    last: f64,
+    /// Programmes since the smallest violation was halved.
+    since: usize,
+    best: Option<Solved>,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self { programmes: 0, smallest: f64::INFINITY, last: f64::INFINITY, since: 0, best: None }
+    }
+}
+
+impl Course {
+    /// Takes the violation of the next answer; whether the iteration is near its end and slow.
+    fn take(&mut self, left: Violation, solved: impl FnOnce() -> Solved) -> bool {
+        let size = left.worst();
+        self.programmes += 1;
+        self.since = if size < 0.5 * self.smallest { 0 } else { self.since + 1 };
+        if size < self.smallest && size <= ACCEPTED {
+            self.best = Some(solved());
+        }
+        let slow = size < NEAR && size > SLOW * self.last;
+        (self.smallest, self.last) = (self.smallest.min(size), size);
+        slow
+    }
+
+    fn ended(&self) -> bool {
+        let rest = self.best.is_some() && self.since >= PATIENCE;
+        self.smallest <= GOAL || self.programmes == MOST || rest
+    }
 }
 
 struct Step<'a> {
     model: &'a Model,
     start: &'a State,
     time: f64,
+    way: Way,
     stage: &'a mut Stage,
     iterations: usize,
 }
@@ -122,13 +159,24 @@ impl Step<'_> {
     }
 
     /// The programme linearised at an answer, and its solution evaluated.
-    fn advance(&mut self, answer: &Answer, loaded: &Loaded, way: Way) -> Result<(Answer, Loaded), Unsolved> {
+    fn advance(&mut self, answer: &Answer, loaded: &Loaded) -> Result<(Answer, Loaded), Unsolved> {
         let given = |error: &dyn std::fmt::Display| Unsolved::Programme(error.to_string());
-        let how = (way, self.time - self.start.time);
+        let how = (self.way, self.time - self.start.time);
         let staged = self.stage.set(self.model, loaded, &answer.pairs, how).map_err(|e| given(&e))?;
         let found = staged.programme.solve().map_err(|e| given(&e))?;
         self.iterations += found.iterations;
         self.move_by(answer, loaded, staged, &found).ok_or(Unsolved::Inverted)
+    }
+
+    /// The answer continued by what the last ones tell, where that does not turn a body inside out.
+    fn mix(&self, acceleration: &mut Acceleration, from: &Answer, to: &Answer) -> Option<(Answer, Loaded)> {
+        let mut mixed = to.clone();
+        mixed.set_flat(self.model, &acceleration.next(&from.flat(self.model), to.flat(self.model)));
+        let loaded = self.load(&mixed);
+        if loaded.is_none() {
+            acceleration.clear();
+        }
+        Some((mixed, loaded?))
     }
 
     fn move_by(
