@@ -140,7 +140,7 @@ fn states(model: &Model, loaded: &Loaded, claim: Claim, dt: f64) -> Vec<SiteStat
                 (Some(Carries::Bound([bound, slope, _])), ContactStatus::Slip) => {
                     (Pattern::Slip(slope), (bound - q.abs()).abs() / scale)
                 }
-                (Some(Carries::Bound(_)), _) => (Pattern::Stick, 0.0),
+                (Some(Carries::Bound([_, slope, _])), _) => (Pattern::Stick(slope), 0.0),
                 _ if p > 0.0 => (Pattern::Frictionless, 0.0),
                 _ => (Pattern::Open, 0.0),
             };

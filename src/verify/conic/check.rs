@@ -10,7 +10,7 @@ use crate::solve::predict;
 use super::answer::{Answer, PairAnswer};
 use super::certificate::{Certificate, certify};
 use super::stage::{Stage, Way};
-use super::step::{Solved, Unsolved, solve};
+use super::step::{Aim, GOAL, Solved, Unsolved, solve};
 use super::{LEAST, differ};
 
 /// Largest difference of `Fx`, `Fy` accepted, of the force.
@@ -113,27 +113,27 @@ pub fn check(model: &Model, start: &State, claim: Claim, stage: &mut Stage, inte
     let clock = Instant::now();
     let time = claim.state.time;
     let certificate = certify(model, start, claim, stage);
-    let solved = from_start(model, start, time, stage, interrupt);
+    let solved = from_start(model, start, (time, GOAL), stage, interrupt);
     let difference = solved.as_ref().ok().map(|solved| difference(model, claim, solved));
     let verdict = judge(&certificate, &solved, difference.as_ref());
     Check { time, certificate, solved, difference, wall_s: clock.elapsed().as_secs_f64(), verdict }
 }
 
-/// Solves a step from the state at its start with the driven bodies moved: by Tresca's way, and by De Saxce's where that does not
-/// come to rest.
+/// Solves a step from the state at its start with the driven bodies moved, to a violation `goal`: by Tresca's way, and by De Saxce's
+/// where that does not come to rest.
 ///
 /// # Errors
 /// Why Tresca's way failed.
 pub fn from_start(
     model: &Model,
     start: &State,
-    time: f64,
+    (time, goal): (f64, f64),
     stage: &mut Stage,
     interrupt: &AtomicBool,
 ) -> Result<Solved, Unsolved> {
     let guess = predict(model, start, time).u;
-    solve(model, start, guess.clone(), (time, Way::Tresca), stage, interrupt)
-        .or_else(|first| solve(model, start, guess, (time, Way::DeSaxce), stage, interrupt).map_err(|_| first))
+    let mut by = |way| solve(model, start, guess.clone(), Aim { time, way, goal }, stage, interrupt);
+    by(Way::Tresca).or_else(|first| by(Way::DeSaxce).map_err(|_| first))
 }
 
 fn difference(model: &Model, claim: Claim, solved: &Solved) -> Difference {
@@ -155,11 +155,13 @@ fn judge(certificate: &Certificate, solved: &Result<Solved, Unsolved>, differenc
     if let Some(why) = certificate.broken() {
         return Verdict::Disagrees(why);
     }
-    let unsure = || format!("not unique: friction takes {:.2} times the stiffness against slip", certificate.coupling);
+    let unsure =
+        format!("the solution need not be unique (friction {:.2} of the stiffness it meets)", certificate.coupling);
     let (solved, difference) = match (solved, difference) {
         (Ok(solved), Some(difference)) => (solved, difference),
-        (Err(why), _) if certificate.unique() => return Verdict::Inconclusive(why.to_string()),
-        _ => return Verdict::Inconclusive(unsure()),
+        (Err(why), _) if !certificate.unique() => return Verdict::Inconclusive(format!("{why}; {unsure}")),
+        (Err(why), _) => return Verdict::Inconclusive(why.to_string()),
+        (Ok(_), None) => return Verdict::Inconclusive("no difference was taken".into()),
     };
     let Difference { u, p, q, force } = *difference;
     let limits =
@@ -172,7 +174,7 @@ fn judge(certificate: &Certificate, solved: &Result<Solved, Unsolved>, differenc
     let accuracy = solved.violation.worst();
     match (apart.is_empty(), certificate.unique()) {
         (true, _) => Verdict::Agrees,
-        (false, false) => Verdict::Inconclusive(unsure()),
+        (false, false) => Verdict::Inconclusive(format!("{}; {unsure}", apart.join(", "))),
         (false, true) if accuracy > FORCE => Verdict::Inconclusive(format!(
             "{}, but the conic solution is no better than {accuracy:.1e}",
             apart.join(", ")

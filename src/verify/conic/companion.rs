@@ -8,6 +8,7 @@ use crate::solve::{Effort, NewtonReport, Witness};
 
 use super::check::{Check, Claim, check, from_start};
 use super::stage::Stage;
+use super::step::GOAL;
 
 /// A certified step.
 #[derive(Clone, Debug)]
@@ -40,7 +41,7 @@ impl Witness for Companion<'_> {
     }
 
     fn rescue(&mut self, model: &Model, start: &State, time: f64, interrupt: &AtomicBool) -> Option<State> {
-        let solved = from_start(model, start, time, &mut self.stage, interrupt).ok()?;
+        let solved = from_start(model, start, (time, GOAL), &mut self.stage, interrupt).ok()?;
         Some(solved.answer.state(model, start, time))
     }
 }

@@ -21,6 +21,7 @@ mod certificate;
 mod check;
 mod companion;
 mod conditions;
+mod form;
 pub mod programme;
 mod stage;
 mod step;
@@ -33,7 +34,7 @@ pub use check::{Check, Claim, Difference, FORCE, STRESS, Verdict, check, from_st
 pub use companion::{Certified, Companion};
 pub use conditions::Violation;
 pub use stage::{Stage, Way};
-pub use step::{Solved, Unsolved, solve};
+pub use step::{Aim, GOAL, Solved, Unsolved, solve};
 pub use tally::Tally;
 
 use crate::contact::SiteLoad;

@@ -12,18 +12,19 @@ use super::conditions::{Violation, violation};
 use super::programme::Solution;
 use super::stage::{Stage, Staged, Way};
 
-/// Violation at which the iteration stops.
-const GOAL: f64 = 1e-9;
+/// Violation asked of a solution.
+pub const GOAL: f64 = 1e-9;
 /// Violation with which a step counts as solved where it does not fall any more.
-pub const ACCEPTED: f64 = 1e-6;
-/// Programmes without the violation falling to half of the best before, after which it has come to rest.
-const PATIENCE: usize = 4;
+const ACCEPTED: f64 = 1e-6;
+/// Programmes in which the violation was not halved, after which an accepted answer has come to rest, the
+/// iteration is taken to cycle and goes half its way, and is given up.
+const PATIENCE: [usize; 3] = [4, 6, 30];
 /// Violation below which the iteration is accelerated where it falls by less than [`SLOW`].
 const NEAR: f64 = 0.1;
 /// See [`NEAR`].
 const SLOW: f64 = 0.3;
 /// Programmes at most.
-const MOST: usize = 60;
+const MOST: usize = 120;
 /// Increments are halved so often while a body is turned inside out.
 const HALVINGS: usize = 8;
 
@@ -66,7 +67,18 @@ pub enum Unsolved {
     Interrupted,
 }
 
-/// Solves the step from `start` to `time`, beginning with the displacements `u`.
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aim {
+    /// End of the step.
+    pub time: f64,
+    /// How to come to Coulomb's law.
+    pub way: Way,
+    /// Violation wanted.
+    pub goal: f64,
+}
+
+/// Solves the step from `start`, beginning with the displacements `u`.
 ///
 /// # Errors
 /// Why not; nothing is changed.
@@ -74,7 +86,7 @@ pub fn solve(
     model: &Model,
     start: &State,
     u: Vec<Point>,
-    (time, way): (f64, Way),
+    Aim { time, way, goal }: Aim,
     stage: &mut Stage,
     interrupt: &AtomicBool,
 ) -> Result<Solved, Unsolved> {
@@ -83,7 +95,7 @@ pub fn solve(
     let mut loaded = step.load(&answer).ok_or(Unsolved::Inverted)?;
     let mut course = Course::default();
     let mut acceleration = Acceleration::default();
-    while !course.ended() {
+    while !course.ended(goal) {
         if interrupt.load(Ordering::Relaxed) {
             return Err(Unsolved::Interrupted);
         }
@@ -92,7 +104,7 @@ pub fn solve(
             next => next?,
         };
         let left = violation(model, &at, &found, time - start.time, LEAST * model.modulus);
-        let slow = course.take(left, || Solved {
+        let pace = course.take(left, goal, || Solved {
             answer: found.clone(),
             violation: left,
             contact_forces: at.contact_forces.clone(),
@@ -100,7 +112,7 @@ pub fn solve(
             programmes: 0,
             iterations: 0,
         });
-        let mixed = slow.then(|| step.mix(&mut acceleration, &answer, &found)).flatten();
+        let mixed = step.mix(&mut acceleration, pace, &answer, &found);
         (answer, loaded) = mixed.unwrap_or((found, at));
     }
     let (programmes, iterations) = (course.programmes, step.iterations);
@@ -113,34 +125,57 @@ struct Course {
     programmes: usize,
     smallest: f64,
     last: f64,
-    /// Programmes since the smallest violation was halved.
+    /// Violation when it was last halved, and programmes since.
+    halved: f64,
     since: usize,
     best: Option<Solved>,
 }
 
 impl Default for Course {
     fn default() -> Self {
-        Self { programmes: 0, smallest: f64::INFINITY, last: f64::INFINITY, since: 0, best: None }
+        Self {
+            programmes: 0,
+            smallest: f64::INFINITY,
+            last: f64::INFINITY,
+            halved: f64::INFINITY,
+            since: 0,
+            best: None,
+        }
     }
 }
 
+/// How an iteration goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pace {
+    /// As it should.
+    Well,
+    /// Near its end, but slowly.
+    Slow,
+    /// Nowhere.
+    Cycling,
+}
+
 impl Course {
-    /// Takes the violation of the next answer; whether the iteration is near its end and slow.
-    fn take(&mut self, left: Violation, solved: impl FnOnce() -> Solved) -> bool {
+    /// Takes the violation of the next answer.
+    fn take(&mut self, left: Violation, goal: f64, solved: impl FnOnce() -> Solved) -> Pace {
         let size = left.worst();
         self.programmes += 1;
-        self.since = if size < 0.5 * self.smallest { 0 } else { self.since + 1 };
-        if size < self.smallest && size <= ACCEPTED {
+        (self.halved, self.since) = if size < 0.5 * self.halved { (size, 0) } else { (self.halved, self.since + 1) };
+        if size < self.smallest && size <= ACCEPTED.max(goal) {
             self.best = Some(solved());
         }
-        let slow = size < NEAR && size > SLOW * self.last;
+        let pace = match size < NEAR {
+            true if size > SLOW * self.last => Pace::Slow,
+            false if self.since >= PATIENCE[1] => Pace::Cycling,
+            _ => Pace::Well,
+        };
         (self.smallest, self.last) = (self.smallest.min(size), size);
-        slow
+        pace
     }
 
-    fn ended(&self) -> bool {
-        let rest = self.best.is_some() && self.since >= PATIENCE;
-        self.smallest <= GOAL || self.programmes == MOST || rest
+    fn ended(&self, goal: f64) -> bool {
+        let rest = self.since >= PATIENCE[if self.best.is_some() { 0 } else { 2 }];
+        self.smallest <= goal || self.programmes == MOST || rest
     }
 }
 
@@ -168,13 +203,29 @@ impl Step<'_> {
         self.move_by(answer, loaded, staged, &found).ok_or(Unsolved::Inverted)
     }
 
-    /// The answer continued by what the last ones tell, where that does not turn a body inside out.
-    fn mix(&self, acceleration: &mut Acceleration, from: &Answer, to: &Answer) -> Option<(Answer, Loaded)> {
+    /// The next point of linearisation where it is not the answer itself: continued by what the last ones tell where they
+    /// converge slowly, halfway where they cycle. `None` also where that turns a body inside out.
+    fn mix(&self, past: &mut Acceleration, pace: Pace, from: &Answer, to: &Answer) -> Option<(Answer, Loaded)> {
         let mut mixed = to.clone();
-        mixed.set_flat(self.model, &acceleration.next(&from.flat(self.model), to.flat(self.model)));
+        let flat = || (from.flat(self.model), to.flat(self.model));
+        match pace {
+            Pace::Well => return None,
+            Pace::Slow => {
+                let (old, new) = flat();
+                mixed.set_flat(self.model, &past.next(&old, new));
+            }
+            Pace::Cycling => {
+                past.clear();
+                let (old, new) = flat();
+                if old.len() == new.len() {
+                    let middle: Vec<f64> = old.iter().zip(&new).map(|(a, b)| 0.5 * (a + b)).collect();
+                    mixed.set_flat(self.model, &middle);
+                }
+            }
+        }
         let loaded = self.load(&mixed);
         if loaded.is_none() {
-            acceleration.clear();
+            past.clear();
         }
         Some((mixed, loaded?))
     }

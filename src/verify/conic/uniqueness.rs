@@ -7,8 +7,8 @@
 //! T = diag(db/dp) (dp^/dq^) diag(sign q^)
 //! ```
 //!
-//! with `dp^/dq^` the pressures that tractions at the slipping sites call forth, the closed sites held closed and the sticking
-//! ones held in place. Where `|T| < 1` the map contracts, whatever the directions of slip, and the rate problem has one solution.
+//! with `dp^/dq^` the pressures that tractions at the slipping sites call forth at all sites that rub, the closed sites held closed
+//! and the sticking ones held in place. Where `|T| < 1` the map contracts, whatever the directions of slip, and the rate problem has one solution.
 //! For a single site with the condensed stiffness `[[k_t, k_nt], [k_nt, k_n]]` this is `mu |k_nt| < k_t` (theory 6.1; Klarbring 1990,
 //! Alart 1993): `dp^ = k_nt du_t`, `du_t = dq^/k_t`. With several sites `|T|` is the spectral norm in the square roots of the
 //! weights, so that the number does not depend on how fine the sites are. It is sufficient, not necessary: beyond 1 uniqueness is
@@ -25,8 +25,8 @@ pub enum Pattern {
     Open,
     /// Closed without bound: no friction, or a direct law.
     Frictionless,
-    /// Sticking.
-    Stick,
+    /// Sticking, with `db/dp`.
+    Stick(f64),
     /// Slipping, with `db/dp`.
     Slip(f64),
 }
@@ -35,27 +35,32 @@ pub enum Pattern {
 /// not determined at given bounds.
 pub fn coupling(programme: &Programme, pattern: &[Pattern]) -> f64 {
     let frame = Frame::new(programme, pattern);
-    let slips: Vec<(usize, f64)> = pattern
-        .iter()
-        .enumerate()
-        .filter_map(|(k, pattern)| if let Pattern::Slip(slope) = pattern { Some((k, *slope)) } else { None })
-        .collect();
+    let slips: Vec<usize> = (0..pattern.len()).filter(|&k| matches!(pattern[k], Pattern::Slip(_))).collect();
+    let rubs: Vec<(usize, f64)> = pattern.iter().enumerate().filter_map(|(k, p)| Some((k, p.slope()?))).collect();
     if slips.is_empty() {
         return 0.0;
     }
     let mut loads = DMatrix::zeros(frame.size, slips.len());
-    for (column, &(k, _)) in slips.iter().enumerate() {
-        frame.pull(k, column, &mut loads);
-    }
+    slips.iter().enumerate().for_each(|(column, &k)| frame.pull(k, column, &mut loads));
     let Some(found) = LU::new(frame.matrix()).solve(&loads) else { return f64::INFINITY };
     let weight = |k: usize| programme.sites[k].weight;
-    let map = DMatrix::from_fn(slips.len(), slips.len(), |i, j| {
-        let ((k, slope), (from, _)) = (slips[i], slips[j]);
-        let row = frame.pressure[k].expect("slipping sites are closed");
+    let map = DMatrix::from_fn(rubs.len(), slips.len(), |i, j| {
+        let ((k, slope), from) = (rubs[i], slips[j]);
+        let row = frame.pressure[k].expect("sites that rub are closed");
         // the unknown is w p^
         slope * found[(row, j)] / weight(k) * (weight(k) / weight(from)).sqrt()
     });
     if map.iter().all(|v| v.is_finite()) { map.singular_values().max() } else { f64::INFINITY }
+}
+
+impl Pattern {
+    /// `db/dp` of a site that rubs.
+    fn slope(self) -> Option<f64> {
+        match self {
+            Self::Stick(slope) | Self::Slip(slope) => Some(slope),
+            Self::Open | Self::Frictionless => None,
+        }
+    }
 }
 
 /// Places of the unknowns: increments, `w p^` of closed sites, `w q^` of sticking ones, multipliers.
@@ -77,7 +82,7 @@ impl<'a> Frame<'a> {
             })
         };
         let pressure = pattern.iter().map(|p| place(*p != Pattern::Open, 1)).collect();
-        let traction = pattern.iter().map(|p| place(*p == Pattern::Stick, TANGENTS)).collect();
+        let traction = pattern.iter().map(|p| place(matches!(p, Pattern::Stick(_)), TANGENTS)).collect();
         let multipliers = next;
         let size = multipliers + (1 + TANGENTS) * programme.multipliers;
         Self { programme, size, pressure, traction, multipliers }
