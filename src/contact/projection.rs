@@ -139,11 +139,14 @@ impl<'a> Target<'a> {
         let mut best: Option<(f64, Partner)> = None;
         for pair in self.samples.windows(2) {
             let (low, high) = (offset(&pair[0]), offset(&pair[1]));
-            let opposing = pair.iter().any(|s| s.normal.dot(&seeker.normal) < 0.0);
-            let far = best.as_ref().is_some_and(|(d, _)| {
-                pair.iter().all(|s| (s.y - seeker.x).norm() > d + (pair[1].y - pair[0].y).norm())
-            });
-            if low * high > 0.0 || !opposing || far {
+            if low * high > 0.0 || pair.iter().all(|s| s.normal.dot(&seeker.normal) >= 0.0) {
+                continue;
+            }
+            let farther = |d: f64| {
+                let beyond = d + (pair[1].y - pair[0].y).norm();
+                pair.iter().all(|s| (s.y - seeker.x).norm() > beyond)
+            };
+            if best.as_ref().is_some_and(|(d, _)| farther(*d)) {
                 continue;
             }
             let sign = if low < high { 1.0 } else { -1.0 };

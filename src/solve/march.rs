@@ -7,12 +7,16 @@ use crate::math::LinearSolver;
 use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record, suggested_step};
 
 use super::Strategy;
-use super::newton::{NewtonReport, StepFailure, solve_from, solve_step};
+use super::newton::{NewtonReport, Step, StepFailure, solve_step};
 use super::status::{Outcome, Status};
 use super::witness::{Effort, Witness};
 
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
+
+/// Iterations above which the next step is half as long: an easy step takes about four, so two of half the length cost no
+/// more then (measured in `papers/cost`).
+const HARD: usize = 8;
 
 /// Time plan of an analysis.
 #[derive(Clone, Debug, PartialEq)]
@@ -205,7 +209,9 @@ impl March<'_, '_> {
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
         self.outcome.rescued += usize::from(rescued);
-        (self.dt, self.law) = ((2.0 * self.dt).min(self.nominal), law);
+        let hard = done.iterations > HARD;
+        self.dt = if hard { (0.5 * dt).max(self.smallest) } else { (2.0 * self.dt).min(self.nominal) };
+        self.law = law;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
     }
@@ -217,7 +223,9 @@ impl March<'_, '_> {
             matches!(failure, StepFailure::Iterations { .. } | StepFailure::Inverted(_) | StepFailure::Linear(_));
         let guess = lost.then(|| self.tools.witness.rescue(self.model, start, next, self.interrupt)).flatten();
         let Some(guess) = guess else { return Err(failure) };
-        let solver = &mut *self.tools.solver;
-        solve_from(self.model, start, guess, self.strategy, solver, self.interrupt, iterations).map_err(|_| failure)
+        let (model, strategy, interrupt) = (self.model, self.strategy, self.interrupt);
+        let mut step =
+            Step { model, start, strategy, solver: self.tools.solver, interrupt, iterations, weakens: false };
+        step.attempt(guess).map_err(|_| failure)
     }
 }

@@ -11,7 +11,7 @@ mod witness;
 
 pub use interface_loop::Strategy;
 pub use march::{Control, StepReport, Tools, accompanied, march};
-pub use newton::{NewtonReport, StepFailure, solve_from, solve_step};
+pub use newton::{NewtonReport, StepFailure, solve_step};
 pub use predictor::predict;
 pub use status::{Outcome, Status};
 pub use witness::{Effort, Witness};

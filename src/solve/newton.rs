@@ -115,38 +115,22 @@ pub fn solve_step(
     Err(failure.unwrap_or(StepFailure::Inverted(0)))
 }
 
-/// Solves the step from `start` to the time of `guess`, from this guess alone.
-///
-/// # Errors
-/// As [`solve_step`].
-pub fn solve_from(
-    model: &Model,
-    start: &State,
-    guess: State,
-    strategy: Strategy,
-    solver: &mut dyn LinearSolver,
-    interrupt: &AtomicBool,
-    iterations: &mut usize,
-) -> Result<NewtonReport, StepFailure> {
-    Step { model, start, strategy, solver, interrupt, iterations, weakens: false }.attempt(guess)
-}
-
 /// A step being solved.
-struct Step<'a> {
-    model: &'a Model,
-    start: &'a State,
-    strategy: Strategy,
-    solver: &'a mut dyn LinearSolver,
-    interrupt: &'a AtomicBool,
-    iterations: &'a mut usize,
+pub(super) struct Step<'a> {
+    pub model: &'a Model,
+    pub start: &'a State,
+    pub strategy: Strategy,
+    pub solver: &'a mut dyn LinearSolver,
+    pub interrupt: &'a AtomicBool,
+    pub iterations: &'a mut usize,
     /// Whether friction fell with the slip rate at some iterate.
-    weakens: bool,
+    pub weakens: bool,
 }
 
 impl Step<'_> {
     /// From one guess: with the exact tangent, then, for a law that weakens, with lagged bound where that failed or found
     /// an unstable equilibrium.
-    fn attempt(&mut self, guess: State) -> Result<NewtonReport, StepFailure> {
+    pub fn attempt(&mut self, guess: State) -> Result<NewtonReport, StepFailure> {
         let exact = self.newton(guess.clone(), Linearisation::exact());
         let stable = exact.as_ref().is_ok_and(|found| found.weakening < 1.0);
         if stable || !self.weakens || matches!(exact, Err(StepFailure::Interrupted)) {
@@ -187,8 +171,9 @@ impl Step<'_> {
             *self.iterations += 1;
             let increment = self.increment(&trial, &mut evaluation, &way)?;
             way.choose(size / evaluation.force_scale);
+            let last = forecast(&residuals) <= tolerance(model, &evaluation);
             (trial, evaluation) = self
-                .update(&trial, &increment, evaluation.norm(), way.tangent)
+                .update(&trial, &increment, (evaluation.norm(), last), way.tangent)
                 .ok_or(StepFailure::Inverted(iteration + 1))?;
         }
     }
@@ -214,8 +199,15 @@ impl Step<'_> {
 
     /// Adds the increment. A step along which the residual grows beyond [`GROWTH`] is halved a few times and the best length
     /// taken (the residual of a semismooth system need not fall, so that is no failure); one that turns a body inside out
-    /// is halved until it does not. With lagged bound the residual may grow: the iteration contracts in the slip.
-    fn update(&self, trial: &State, increment: &[f64], before: f64, tangent: Tangent) -> Option<(State, Evaluation)> {
+    /// is halved until it does not. With lagged bound the residual may grow: the iteration contracts in the slip. The tangent
+    /// is left out of what is expected to be, and is, the `last` iterate.
+    fn update(
+        &self,
+        trial: &State,
+        increment: &[f64],
+        (before, last): (f64, bool),
+        tangent: Tangent,
+    ) -> Option<(State, Evaluation)> {
         let moved = |factor: f64| {
             let mut next = trial.clone();
             next.advance(self.model, increment, factor);
@@ -223,6 +215,9 @@ impl Step<'_> {
         };
         let evaluate = |trial: &State, tangent| evaluate(self.model, self.start, trial, tangent);
         let full = moved(1.0);
+        if last && let Some(found) = evaluate(&full, Tangent::None).filter(|found| balanced(self.model, found)) {
+            return Some((full, found));
+        }
         let found = evaluate(&full, tangent);
         let mut best = found.as_ref().map(|found| (found.norm(), 1.0));
         let accepted = |size: f64| tangent == Tangent::Lagged || size <= GROWTH * before;
@@ -279,10 +274,22 @@ fn stalled(residuals: &[f64]) -> bool {
     !old.is_empty() && best(new) > 0.5 * best(old)
 }
 
+/// The next residual, should the convergence be quadratic.
+fn forecast(residuals: &[f64]) -> f64 {
+    match residuals {
+        [.., before, last] => last * (last / before).powi(2),
+        _ => f64::INFINITY,
+    }
+}
+
 /// True where the residual is as small as is asked for.
 fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
-    let floor = ROUND_OFF * model.modulus * model.size();
-    largest(&evaluation.residual) <= RELATIVE * evaluation.force_scale + floor
+    largest(&evaluation.residual) <= tolerance(model, evaluation)
+}
+
+/// The residual asked for.
+fn tolerance(model: &Model, evaluation: &Evaluation) -> f64 {
+    RELATIVE * evaluation.force_scale + ROUND_OFF * model.modulus * model.size()
 }
 
 /// Largest magnitude; `NaN` if there is one.

@@ -1,5 +1,5 @@
-//! One evaluation of the two-asperity problem in contact, with and without tangent, and the share of the friction law in a
-//! Newton iteration (a table of medians from runs in turn): `cargo bench --bench assembly`.
+//! One evaluation of the two-asperity problem in contact, with and without tangent; what the contact kernel and the friction
+//! law take of a Newton iteration (tables of medians from runs in turn): `cargo bench --bench assembly`.
 
 #[path = "../support/mod.rs"]
 mod support;
@@ -8,10 +8,11 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use asperity::contact::ContactStatus;
+use asperity::contact::{Configuration, ContactDiscretization, ContactStatus, InterfaceStart, InterfaceTrial};
+use asperity::geometry::Point;
 use asperity::laws::{FrictionLaw, InterfacePoint, dual, parse};
 use asperity::math::{CondensedSolver, LinearSolver};
-use asperity::model::{Model, State, Tangent, evaluate};
+use asperity::model::{Model, Side, State, Tangent, evaluate};
 use criterion::{Criterion, criterion_group, criterion_main};
 use support::{Pass, done};
 
@@ -51,6 +52,25 @@ impl Bench {
 
     fn evaluate(&self, tangent: Tangent) {
         black_box(evaluate(&self.model, &self.start, &self.end, tangent));
+    }
+
+    /// The contact kernel alone.
+    fn contact(&self, tangent: Tangent) {
+        let (pair, old, new) = (&self.model.pairs[0], &self.start.pairs[0], &self.end.pairs[0]);
+        let place = |side: &Side, state: &State| -> Vec<Point> {
+            let body = &self.model.bodies[side.body];
+            side.nodes.iter().map(|&i| body.points[i - body.offset] + state.u[i]).collect()
+        };
+        let [nonmortar, mortar] = [&pair.nonmortar, &pair.mortar].map(|side| place(side, &self.start));
+        let start = InterfaceStart { at: Configuration { nonmortar: &nonmortar, mortar: &mortar }, sites: &old.sites };
+        let [nonmortar, mortar] = [&pair.nonmortar, &pair.mortar].map(|side| place(side, &self.end));
+        let trial = InterfaceTrial {
+            at: Configuration { nonmortar: &nonmortar, mortar: &mortar },
+            pressure: &new.pressure,
+            traction: &new.traction,
+            dt: self.end.time - self.start.time,
+        };
+        black_box(pair.contact.evaluate(&start, &trial, tangent));
     }
 
     /// Evaluation and linear solution.
@@ -139,5 +159,23 @@ fn law_shares(_: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, law_shares, evaluations);
+fn contact_shares(_: &mut Criterion) {
+    println!("\nmicroseconds, medians of {TURNS} runs in turn; Coulomb friction 0.3");
+    println!(
+        "{:26}{:>8}{:>10}{:>16}{:>12}{:>8}",
+        "problem", "sites", "contact", "without tangent", "iteration", "share"
+    );
+    for (name, setup) in problems() {
+        let [other, mut bench] = [Bench::new(&setup), Bench::new(&setup)];
+        let [contact, forces, iteration] =
+            medians([&mut || other.contact(Tangent::Exact), &mut || other.contact(Tangent::None), &mut || {
+                bench.iteration()
+            }]);
+        let sites = other.start.pairs[0].sites.len();
+        let share = 100.0 * contact / iteration;
+        println!("{name:26}{sites:8}{contact:10.1}{forces:16.1}{iteration:12.1}{share:7.1}%");
+    }
+}
+
+criterion_group!(benches, contact_shares, law_shares, evaluations);
 criterion_main!(benches);

@@ -15,7 +15,7 @@ use super::uniqueness::{Pattern, coupling};
 use super::{LEAST, differ};
 
 /// What was found at a claimed solution.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Certificate {
     /// How far its forces miss the conditions.
     pub violation: Violation,
@@ -72,16 +72,8 @@ impl Certificate {
 pub fn certify(model: &Model, start: &State, claim: Claim, stage: &mut Stage) -> Certificate {
     let answer = claim.answer();
     let (time, dt) = (claim.state.time, claim.state.time - start.time);
-    let mut out = Certificate {
-        violation: Violation { equilibrium: f64::NAN, ..Default::default() },
-        status: 0.0,
-        increment: 0.0,
-        forces: 0.0,
-        duality_gap: 0.0,
-        coupling: 0.0,
-        direct: 0,
-        unsolved: None,
-    };
+    let unknown = Violation { equilibrium: f64::NAN, ..Default::default() };
+    let mut out = Certificate { violation: unknown, ..Default::default() };
     let Some(loaded) = load(model, start, &answer.u, time, &answer.loads()) else { return out };
     out.violation = violation(model, &loaded, &answer, dt, LEAST * model.modulus);
     let states = states(model, &loaded, claim, dt);

@@ -182,3 +182,30 @@ fn judge(certificate: &Certificate, solved: &Result<Solved, Unsolved>, differenc
         (false, true) => Verdict::Disagrees(format!("{} after {} programmes", apart.join(", "), solved.programmes)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::conditions::Violation;
+    use super::*;
+
+    /// A difference is a disagreement where the solution is unique and the conic one accurate, and no proof of anything else.
+    #[test]
+    fn differences_are_judged_by_uniqueness_and_accuracy() {
+        let certificate = |coupling| Certificate { coupling, ..Certificate::default() };
+        let solved = |violation| {
+            let violation = Violation { equilibrium: violation, ..Violation::default() };
+            let answer = Answer { u: vec![], pairs: vec![] };
+            Ok(Solved { answer, violation, contact_forces: vec![], way: Way::Tresca, programmes: 3, iterations: 40 })
+        };
+        let apart = Difference { p: 1e-3, ..Difference::default() };
+        let verdict = |coupling, violation| judge(&certificate(coupling), &solved(violation), Some(&apart));
+        assert!(matches!(verdict(0.5, 1e-9), Verdict::Disagrees(why) if why.contains("p differs by 1.0e-3")));
+        assert!(matches!(verdict(1.3, 1e-9), Verdict::Inconclusive(why) if why.contains("need not be unique")));
+        assert!(matches!(verdict(0.5, 1e-5), Verdict::Inconclusive(why) if why.contains("no better than")));
+        let none = Err(Unsolved::Programme("Clarabel answers InsufficientProgress".into()));
+        assert!(
+            matches!(judge(&certificate(0.5), &none, None), Verdict::Inconclusive(why) if why.contains("Clarabel"))
+        );
+        assert_eq!(judge(&certificate(1.3), &solved(1e-9), Some(&Difference::default())), Verdict::Agrees);
+    }
+}

@@ -1,8 +1,9 @@
 //! By how much displacements and contact forces miss the conditions of a step: exact kinematics, no projection.
 //!
 //! With the gap `c_a = g_a + (p^_a - p_a)/r_N` and the slip `v_a = s_a + e_a - (q^_a - q_a)/r_T` of a site, the conditions are
-//! `p^ >= 0`, `c >= 0`, `p^ c = 0`, `|q^| <= b` and `b |v| = q^ v`. Gaps and slips are turned into stresses by `r`; stresses are measured by
-//! the peak pressure.
+//! `p^ >= 0`, `c >= 0`, `p^ c = 0`, `|q^| <= b`, and `q^ = b v/|v|` where `v` is not zero. Gaps and slips are turned into stresses by `r`; stresses are measured by
+//! the peak pressure. Of two numbers one of which has to vanish the smaller one counts: their product would be small where both
+//! are far from zero.
 
 use crate::contact::{ContactDiscretization, SiteKinematics, Sites};
 use crate::model::{Loaded, Model, Pair};
@@ -20,7 +21,7 @@ pub struct Violation {
     pub equilibrium: f64,
     /// `-c` and `-p^`.
     pub sign: f64,
-    /// `p^ c` and `b |v| - q^ v`.
+    /// The smaller of `p^` and `c`, of `b - |q^|` and `|v|`, and of `|v|` and `|q^|` where it does not act against the slip.
     pub complementarity: f64,
     /// `|q^| - b`; for a direct law `|q^ - Q|`.
     pub cone: f64,
@@ -104,10 +105,10 @@ impl PairMeasure<'_> {
     }
 
     fn normal(&self, site: &SiteKinematics, out: &mut Violation) {
-        let [r, p] = [site.r[0], site.load[0]];
-        let gap = r * (site.gap + self.relaxation(site, 0)) / self.scale;
-        out.sign = out.sign.max(-gap).max(-p / self.scale);
-        out.complementarity = out.complementarity.max((p / self.scale * gap).abs());
+        let p = site.load[0] / self.scale;
+        let gap = site.r[0] * (site.gap + self.relaxation(site, 0)) / self.scale;
+        out.sign = out.sign.max(-gap).max(-p);
+        out.complementarity = out.complementarity.max(p.min(gap));
     }
 
     fn tangential(&self, site: &SiteKinematics, out: &mut Violation) {
@@ -119,9 +120,11 @@ impl PairMeasure<'_> {
         }
         match carries(&**law, site, p, self.dt) {
             Carries::Bound([bound, ..]) => {
-                let slip = site.r[1] * sliding(site, self.relaxation(site, 1)) / self.scale;
-                out.cone = out.cone.max((q.abs() - bound) / self.scale);
-                out.complementarity = out.complementarity.max((bound * slip.abs() - q * slip).abs() / self.scale);
+                let slip = site.r[1] * sliding(site, self.relaxation(site, 1));
+                let against = q.abs() - q * slip.signum();
+                let [below, slip, against] = [bound - q.abs(), slip.abs(), against].map(|v| v / self.scale);
+                out.cone = out.cone.max(-below);
+                out.complementarity = out.complementarity.max(slip.min(below)).max(slip.min(against));
             }
             Carries::Traction([traction, ..]) => out.cone = out.cone.max((q - traction).abs() / self.scale),
         }

@@ -41,9 +41,8 @@ use super::form::Form;
 /// Tangential directions: 1 in the plane, 2 in space.
 pub const TANGENTS: usize = 1;
 
-/// Factors on the length scale, one attempt after the other, and the least accuracy that each takes from Clarabel. The outer iteration
-/// measures what an answer is worth.
-const ATTEMPTS: [(f64, f64); 4] = [(1.0, 1e-8), (30.0, 1e-8), (0.03, 1e-8), (1.0, 1e-5)];
+/// Factors on the length scale, one attempt after the other.
+const ATTEMPTS: [f64; 3] = [1.0, 30.0, 0.03];
 
 /// A sparse row over the increments.
 pub type Row = Vec<(usize, f64)>;
@@ -160,9 +159,9 @@ impl Programme {
     pub fn solve(&self) -> Result<Solution, String> {
         let mut iterations = 0;
         let mut last = String::new();
-        for (k, (factor, least)) in ATTEMPTS.into_iter().enumerate() {
+        for (k, factor) in ATTEMPTS.into_iter().enumerate() {
             let form = Form::new(self, factor * self.length);
-            let mut solver = form.solver(least)?;
+            let mut solver = form.solver()?;
             solver.solve();
             iterations += solver.solution.iterations as usize;
             let status = solver.solution.status;

@@ -14,11 +14,10 @@ use super::stage::{Stage, Staged, Way};
 
 /// Violation asked of a solution.
 pub const GOAL: f64 = 1e-9;
-/// Violation with which a step counts as solved where it does not fall any more.
-const ACCEPTED: f64 = 1e-6;
-/// Programmes in which the violation was not halved, after which an accepted answer has come to rest, the
-/// iteration is taken to cycle and goes half its way, and is given up.
-const PATIENCE: [usize; 3] = [4, 6, 30];
+/// Violation with which a step counts as solved where it does not fall any more: sites that just touch or are about to slip.
+const ACCEPTED: f64 = 1e-5;
+/// Programmes in which the violation was not halved, after which an accepted answer has come to rest.
+const PATIENCE: usize = 4;
 /// Violation below which the iteration is accelerated where it falls by less than [`SLOW`].
 const NEAR: f64 = 0.1;
 /// See [`NEAR`].
@@ -104,7 +103,7 @@ pub fn solve(
             next => next?,
         };
         let left = violation(model, &at, &found, time - start.time, LEAST * model.modulus);
-        let pace = course.take(left, goal, || Solved {
+        let slow = course.take(left, goal, || Solved {
             answer: found.clone(),
             violation: left,
             contact_forces: at.contact_forces.clone(),
@@ -112,7 +111,7 @@ pub fn solve(
             programmes: 0,
             iterations: 0,
         });
-        let mixed = step.mix(&mut acceleration, pace, &answer, &found);
+        let mixed = slow.then(|| step.mix(&mut acceleration, &answer, &found)).flatten();
         (answer, loaded) = mixed.unwrap_or((found, at));
     }
     let (programmes, iterations) = (course.programmes, step.iterations);
@@ -144,37 +143,22 @@ impl Default for Course {
     }
 }
 
-/// How an iteration goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pace {
-    /// As it should.
-    Well,
-    /// Near its end, but slowly.
-    Slow,
-    /// Nowhere.
-    Cycling,
-}
-
 impl Course {
-    /// Takes the violation of the next answer.
-    fn take(&mut self, left: Violation, goal: f64, solved: impl FnOnce() -> Solved) -> Pace {
+    /// Takes the violation of the next answer; whether the iteration is near its end and slow.
+    fn take(&mut self, left: Violation, goal: f64, solved: impl FnOnce() -> Solved) -> bool {
         let size = left.worst();
         self.programmes += 1;
         (self.halved, self.since) = if size < 0.5 * self.halved { (size, 0) } else { (self.halved, self.since + 1) };
         if size < self.smallest && size <= ACCEPTED.max(goal) {
             self.best = Some(solved());
         }
-        let pace = match size < NEAR {
-            true if size > SLOW * self.last => Pace::Slow,
-            false if self.since >= PATIENCE[1] => Pace::Cycling,
-            _ => Pace::Well,
-        };
+        let slow = size < NEAR && size > SLOW * self.last;
         (self.smallest, self.last) = (self.smallest.min(size), size);
-        pace
+        slow
     }
 
     fn ended(&self, goal: f64) -> bool {
-        let rest = self.since >= PATIENCE[if self.best.is_some() { 0 } else { 2 }];
+        let rest = self.best.is_some() && self.since >= PATIENCE;
         self.smallest <= goal || self.programmes == MOST || rest
     }
 }
@@ -203,26 +187,10 @@ impl Step<'_> {
         self.move_by(answer, loaded, staged, &found).ok_or(Unsolved::Inverted)
     }
 
-    /// The next point of linearisation where it is not the answer itself: continued by what the last ones tell where they
-    /// converge slowly, halfway where they cycle. `None` also where that turns a body inside out.
-    fn mix(&self, past: &mut Acceleration, pace: Pace, from: &Answer, to: &Answer) -> Option<(Answer, Loaded)> {
+    /// The answer continued by what the last ones tell, where that does not turn a body inside out.
+    fn mix(&self, past: &mut Acceleration, from: &Answer, to: &Answer) -> Option<(Answer, Loaded)> {
         let mut mixed = to.clone();
-        let flat = || (from.flat(self.model), to.flat(self.model));
-        match pace {
-            Pace::Well => return None,
-            Pace::Slow => {
-                let (old, new) = flat();
-                mixed.set_flat(self.model, &past.next(&old, new));
-            }
-            Pace::Cycling => {
-                past.clear();
-                let (old, new) = flat();
-                if old.len() == new.len() {
-                    let middle: Vec<f64> = old.iter().zip(&new).map(|(a, b)| 0.5 * (a + b)).collect();
-                    mixed.set_flat(self.model, &middle);
-                }
-            }
-        }
+        mixed.set_flat(self.model, &past.next(&from.flat(self.model), to.flat(self.model)));
         let loaded = self.load(&mixed);
         if loaded.is_none() {
             past.clear();
