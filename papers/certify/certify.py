@@ -31,8 +31,9 @@ def certify(scene, sets, sites, out):
 
 
 def row(scene, sets, sites):
-    name = " ".join([scene] + [value.split(".")[-1] for value in sets])
-    out = ROOT / "out" / "certify" / f"{name} {sites}".replace(" ", "_")
+    label = lambda value: value.split("=")[0].split(".")[-1] + " = " + value.split("=")[1]
+    name = ", ".join([scene] + [label(value) for value in sets])
+    out = ROOT / "out" / "certify" / f"{name} {sites}".replace(" ", "_").replace(",", "")
     result = certify(scene, sets, sites, out)
     found, counters = result["certified"], result["counters"]
     largest = found["largest"]

@@ -12,6 +12,9 @@ use super::support::{Pass, Run, pass, run};
 
 const FRICTION: f64 = 1.0;
 
+/// What is done to a claim.
+type Plant = fn(&mut Evaluation);
+
 /// A climb in which part of the contact sticks, by both kinds of sites.
 fn climbs() -> [Run; 2] {
     [Sites::Nodal, Sites::Quadrature].map(|sites| {
@@ -54,9 +57,9 @@ fn strongest(evaluation: &mut Evaluation, status: ContactStatus) -> &mut asperit
 fn planted_errors_disagree() {
     for found in climbs() {
         let (start, end) = mixed(&found);
-        let judged = |plant: fn(&mut Evaluation)| verdict(&found.model, &start, &end, plant);
+        let judged = |plant: Plant| verdict(&found.model, &start, &end, plant);
         assert_eq!(judged(|_| ()), Verdict::Agrees);
-        let plants: [(&str, fn(&mut Evaluation)); 5] = [
+        let plants: [(&str, Plant); 5] = [
             ("friction sign", |e| strongest(e, ContactStatus::Slip).traction *= -1.0),
             ("pressure times 1.001", |e| strongest(e, ContactStatus::Slip).pressure *= 1.001),
             ("stick marked slip", |e| strongest(e, ContactStatus::Stick).status = ContactStatus::Slip),

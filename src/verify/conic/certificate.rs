@@ -93,10 +93,9 @@ impl Certificate {
         match staged.programme.solve() {
             Ok(found) => {
                 let mut pairs = claimed.to_vec();
-                let mut at = 0;
-                for load in pairs.iter_mut().flat_map(|pair| &mut pair.loads) {
-                    (load.pressure, load.traction) = (found.pressure[at], found.traction[at][0]);
-                    at += 1;
+                let loads = pairs.iter_mut().flat_map(|pair| &mut pair.loads);
+                for (load, (p, q)) in loads.zip(found.pressure.iter().zip(&found.traction)) {
+                    (load.pressure, load.traction) = (*p, q[0]);
                 }
                 let [p, q] = differ(model, claimed, &pairs);
                 self.forces = p.max(q);

@@ -86,10 +86,9 @@ impl Form {
                 continue;
             };
             let w = site.weight / of.modulus;
-            for c in 0..TANGENTS {
-                let row = &facing.slip_rows[c];
-                row.iter().for_each(|&(j, v)| self.q[j] += w * traction[c] * v / self.length);
-                relaxation.iter().for_each(|e| self.q[e + 1 + c] -= w * traction[c] / self.length);
+            for (c, (row, q)) in facing.slip_rows.iter().zip(traction).enumerate() {
+                row.iter().for_each(|&(j, v)| self.q[j] += w * q * v / self.length);
+                relaxation.iter().for_each(|e| self.q[e + 1 + c] -= w * q / self.length);
                 for &(i, a) in row.iter().filter(|_| slope > 0.0) {
                     row.iter().filter(|(j, _)| i <= *j).for_each(|&(j, b)| push(&mut self.p, i, j, w * slope * a * b));
                 }
