@@ -122,6 +122,17 @@ fn other_laws_enter_by_value_and_slope_and_direct_laws_are_told() {
     }
 }
 
+/// Sites that just touch, slip of no direction, bodies that only contact holds, segments that move.
+#[test]
+fn degenerate_contacts_agree() {
+    agree("patch test", &certified("patch_test", &[]), 4);
+    // 1 % and 0.1 % above tan(20 degrees), where the block begins to slide; and far above
+    for friction in ["0.3676", "0.36434", "10.0"] {
+        let law = format!("contact.0.law.friction={friction}");
+        agree(&format!("incline, mu = {friction}"), &certified("incline", &[law.as_str()]), 4);
+    }
+}
+
 #[test]
 fn tresca_and_de_saxce_meet() {
     for sites in [Sites::Nodal, Sites::Quadrature] {
