@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use asperity::model::State;
+use asperity::model::{State, Tangent, evaluate};
 use asperity::output::RunFolder;
 use asperity::output::tables::CertifyRow;
 use asperity::scene::{self, Scene};
 use asperity::solve::predict;
-use asperity::verify::conic::{Aim, FORCE, GOAL, STRESS, Stage, Verdict, Way, solve};
+use asperity::verify::conic::{Aim, Claim, FORCE, GOAL, STRESS, Stage, Verdict, Way, check, solve};
 
 use super::support::{Pass, pass, run};
 use asperity::contact::Sites;
@@ -130,6 +130,32 @@ fn degenerate_contacts_agree() {
     for friction in ["0.3676", "0.36434", "10.0"] {
         let law = format!("contact.0.law.friction={friction}");
         agree(&format!("incline, mu = {friction}"), &certified("incline", &[law.as_str()]), 4);
+    }
+}
+
+/// The same step in other units: the same programmes to within one (rounding decides when the goal is met), the same violation.
+#[test]
+fn units_do_not_matter() {
+    let solved = |length: f64, stress: f64| -> Vec<usize> {
+        let setup = Pass { length, stress, element: 0.2, steps: 8, from: -0.6, to: -0.2, ..Pass::default() };
+        let found = run(pass(&setup), setup.steps);
+        let (mut stage, quiet) = (Stage::default(), AtomicBool::new(false));
+        let mut start = State::initial(&found.model);
+        let mut counts = vec![];
+        for end in &found.states {
+            let evaluation = evaluate(&found.model, &start, end, Tangent::None).expect("evaluates");
+            let found = check(&found.model, &start, Claim { state: end, evaluation: &evaluation }, &mut stage, &quiet);
+            assert_eq!(found.verdict, Verdict::Agrees);
+            counts.push(found.solved.expect("solved").programmes);
+            start = end.clone();
+        }
+        counts
+    };
+    let reference = solved(1.0, 1.0);
+    for (length, stress) in [(1e-9, 1e9), (1e6, 1e-6)] {
+        let counts = solved(length, stress);
+        println!("{reference:?} {counts:?}");
+        assert!(counts.iter().zip(&reference).all(|(a, b)| a.abs_diff(*b) <= 1));
     }
 }
 

@@ -10,8 +10,8 @@ use crate::output::tables::CertifyRow;
 use crate::output::{OutputError, Quantity, UnitLabels};
 use crate::verify::conic::Difference;
 
-/// Differences below this are drawn as this: two solutions that are the same bit for bit have no logarithm.
-const FLOOR: f64 = 1e-17;
+/// Differences below this are not drawn: the same to round-off, or nothing touches.
+const ROUND_OFF: f64 = 1e-16;
 
 /// Writes `certify` as SVG and PNG and returns the paths; nothing for fewer than two rows.
 ///
@@ -26,7 +26,8 @@ pub fn write(folder: &Path, rows: &[CertifyRow], units: &UnitLabels) -> Result<V
 
 fn svg(rows: &[CertifyRow], units: &UnitLabels) -> String {
     let curve = |value: &dyn Fn(&CertifyRow) -> f64| -> Vec<[f64; 2]> {
-        rows.iter().map(|row| [row.found.check.time, value(row).max(FLOOR).log10()]).collect()
+        let seen = |value: f64| if value > ROUND_OFF { value.log10() } else { f64::NAN };
+        rows.iter().map(|row| [row.found.check.time, seen(value(row))]).collect()
     };
     let of = |value: &'static dyn Fn(&Difference) -> f64| {
         curve(&move |row| row.found.check.difference.as_ref().map_or(f64::NAN, value))
