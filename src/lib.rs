@@ -30,6 +30,7 @@ pub mod solve;
 pub mod verify;
 pub mod output;
 pub mod scene;
+pub mod study;
 pub mod cli;
 
 pub use asperity_laws as laws;

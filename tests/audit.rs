@@ -78,7 +78,7 @@ fn finds(name: &str, step: usize, failure: bool, plant: impl Fn(&mut Record)) {
 #[test]
 fn good_records_pass_and_every_audit_judges_some() {
     let found = findings(&good(), EXPECTED);
-    assert_eq!(found.len(), 10);
+    assert_eq!(found.len(), 11);
     for finding in found {
         assert!(finding.passed && finding.judged > 20, "{finding:?}");
     }
@@ -107,6 +107,22 @@ fn each_fault_is_found_where_it_was_planted() {
 fn no_number_is_never_a_pass() {
     finds("interface_force", 5, true, |r| r.force_imbalance = f64::NAN);
     finds("penetration", 6, false, |r| r.penetration_max = f64::NAN);
+}
+
+/// What a snap sets free is accounted for and told; a snap that gives energy is no snap.
+#[test]
+fn snaps_are_told_and_must_set_energy_free() {
+    let snap = |sign: f64| {
+        let mut records = good();
+        records[20].snaps = 1;
+        records[20..].iter_mut().for_each(|r| {
+            r.snap_loss += sign * 0.02;
+            r.strain_energy -= sign * 0.02;
+        });
+        broken(&records, EXPECTED).into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+    };
+    assert_eq!(snap(1.0), ["snap"]);
+    assert_eq!(snap(-1.0), ["energy_balance", "energy_created"]);
 }
 
 /// Energy from nowhere: more is stored than any rule of integration could make of the forces and ways on record.
@@ -203,7 +219,7 @@ fn run_json_holds_audits_and_warnings() {
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["result"]["audit"]["passed"], true);
     let checks = json["result"]["audit"]["checks"].as_array().unwrap();
-    assert_eq!(checks.len(), 10);
+    assert_eq!(checks.len(), 11);
     let judged = |name: &str| checks.iter().find(|c| c["name"] == name).unwrap()["judged"].as_u64().unwrap();
     assert_eq!((judged("interface_force"), judged("energy_created")), (4, 4));
     assert!(judged("friction_identity") > 0, "the dragged block slips: {checks:?}");

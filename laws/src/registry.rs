@@ -5,7 +5,7 @@
 use crate::{
     dual::constant,
     info::{Kind, LawInfo, Parameter, Range},
-    law::{FrictionLaw, InterfacePoint},
+    law::{FrictionLaw, InterfacePoint, Variable},
 };
 use schemars::{Schema, SchemaGenerator, json_schema};
 use toml::{Table, Value};
@@ -140,7 +140,17 @@ pub fn parse(table: Table) -> Result<Box<dyn FrictionLaw>, LawError> {
         message: error.message().into(),
     })?;
     law.validate()?;
+    starts(&*law)?;
     Ok(law)
+}
+
+/// States must start at numbers: parameters that are each in range may be too far apart for their quotient.
+fn starts(law: &dyn FrictionLaw) -> Result<(), LawError> {
+    let wrong = law.variables().into_iter().find(|variable| !variable.initial.is_finite());
+    wrong.map_or(Ok(()), |Variable { name, initial, .. }| {
+        let message = format!("its parameters are too far apart: the state `{name}` would start at {initial}");
+        Err(LawError::invalid(law.typetag_name(), "type", message))
+    })
 }
 
 /// Checks a law that was not read by [`parse`]: the ranges of its record and its own conditions.
@@ -156,7 +166,8 @@ pub fn validate(law: &dyn FrictionLaw) -> Result<(), LawError> {
         message: error.to_string(),
     })?;
     check(info, &table)?;
-    law.validate()
+    law.validate()?;
+    starts(law)
 }
 
 /// JSON schema of the `law` table, for `#[schemars(schema_with = "asperity_laws::schema")]`.

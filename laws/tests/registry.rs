@@ -30,6 +30,8 @@ fn mistakes_are_named_with_key_and_cure() {
     fails("type = 'coulom'", "type", &["did you mean `coulomb`", "tresca", "use that_crate as _;"]);
     fails("type = 'coulomb'\nfrictoin = 0.3", "frictoin", &["did you mean `friction`"]);
     fails("type = 'coulomb'\nfriction = 0.3\nspeed = 1.0", "speed", &["its parameters: friction"]);
+    let far = "type = 'rate-and-state'\nfriction = 0.3\ndirect_effect = 0.03\nevolution_effect = 0.04\ndistance = 1e150\nspeed = 1e-300";
+    fails(far, "type", &["too far apart", "`theta` would start at inf"]);
     fails("type = 'coulomb'", "type", &["friction", "coefficient of friction", ">= 0"]);
     fails("type = 'coulomb'\nfriction = -0.3", "friction", &["-0.3", "a number >= 0"]);
     fails("type = 'coulomb'\nfriction = inf", "friction", &["inf", "a number >= 0"]);

@@ -4,6 +4,7 @@ use nalgebra::Matrix2;
 
 use super::Material;
 use super::stiffness::{Stiffness, place};
+use super::volume::{Points, Volume, VolumeSpace};
 use crate::geometry::{Patch, Point};
 use crate::math::gauss;
 
@@ -12,12 +13,14 @@ use crate::math::gauss;
 pub struct Elements {
     /// Control points of each element, `nodes_per_element` in a row.
     nodes: Vec<usize>,
-    nodes_per_element: usize,
-    points_per_element: usize,
+    pub(super) nodes_per_element: usize,
+    pub(super) points_per_element: usize,
     /// `dN/dX`, ordered element, quadrature point, node.
     gradients: Vec<[f64; 2]>,
     /// Reference area belonging to each quadrature point.
-    weights: Vec<f64>,
+    pub(super) weights: Vec<f64>,
+    /// Where the dilatation is not taken from the point itself.
+    pub(super) volume: Option<Volume>,
 }
 
 /// What one element contributes.
@@ -31,27 +34,43 @@ pub struct BulkForces<'a> {
 }
 
 impl Elements {
-    /// Gauss points: `degree + 1` in each direction.
+    /// Gauss points: `degree + 1` in each direction. `volume`: space of the dilatations, `None` for each point its own.
     ///
     /// Returns `None` where the map from parameters to the reference body is not invertible (Jacobian not positive).
-    pub fn new(patch: &Patch) -> Option<Self> {
+    pub fn new(patch: &Patch, volume: Option<VolumeSpace>) -> Option<Self> {
         let [nu, nv] = patch.elements();
         let rules = [gauss(patch.basis[0].degree() + 1), gauss(patch.basis[1].degree() + 1)];
         let points_per_element = rules[0].points.len() * rules[1].points.len();
         let nodes_per_element = (patch.basis[0].degree() + 1) * (patch.basis[1].degree() + 1);
-        let mut this =
-            Self { nodes: vec![], nodes_per_element, points_per_element, gradients: vec![], weights: vec![] };
+        let mut this = Self {
+            nodes: vec![],
+            nodes_per_element,
+            points_per_element,
+            gradients: vec![],
+            weights: vec![],
+            volume: None,
+        };
+        let mut parameters = vec![];
         for element in (0..nv).flat_map(|j| (0..nu).map(move |i| [i, j])) {
             let [[u0, u1], [v0, v1]] = patch.span_box(element);
             for (eta, wv) in rules[1].points.iter().zip(&rules[1].weights) {
                 for (xi, wu) in rules[0].points.iter().zip(&rules[0].weights) {
                     let uv = [u0 + xi * (u1 - u0), v0 + eta * (v1 - v0)];
                     this.add_point(patch, element, uv, wu * wv * (u1 - u0) * (v1 - v0))?;
+                    parameters.push(uv);
                 }
             }
             let nodes = patch.shape(element, [u0, v0]).nodes;
             this.nodes.extend(nodes);
         }
+        let points = Points {
+            nodes: &this.nodes,
+            nodes_per_element,
+            parameters: &parameters,
+            weights: &this.weights,
+            per_element: points_per_element,
+        };
+        this.volume = volume.map(|space| Volume::new(patch, space, &points));
         Some(this)
     }
 
@@ -79,9 +98,29 @@ impl Elements {
         self.nodes.len() / self.nodes_per_element
     }
 
-    /// Control points of element `e`.
+    /// Number of elements, and of blocks of elements that are coupled by common dilatations: see [`Self::integrate`].
+    pub fn cliques(&self) -> usize {
+        self.count() + self.volume.as_ref().map_or(0, |volume| volume.blocks.len())
+    }
+
+    /// Control points of element `e`, or of the block of that number less the number of elements.
     pub fn nodes(&self, e: usize) -> &[usize] {
-        &self.nodes[e * self.nodes_per_element..(e + 1) * self.nodes_per_element]
+        if e >= self.count() {
+            self.volume.as_ref().map_or(&[], |v| &v.blocks[e - self.count()].nodes)
+        } else {
+            &self.nodes[e * self.nodes_per_element..(e + 1) * self.nodes_per_element]
+        }
+    }
+
+    /// Control points and quadrature points of an element.
+    pub(super) fn element(&self, e: usize) -> (&[usize], std::ops::Range<usize>, &[[f64; 2]]) {
+        let (n, m) = (self.nodes_per_element, self.points_per_element);
+        (&self.nodes[e * n..(e + 1) * n], e * m..(e + 1) * m, &self.gradients[e * n * m..(e + 1) * n * m])
+    }
+
+    /// The space of dilatations, where they are projected.
+    pub fn volume(&self) -> Option<VolumeSpace> {
+        self.volume.as_ref().map(|volume| volume.space)
     }
 
     /// Reference area of the body.
@@ -95,7 +134,8 @@ impl Elements {
         place(i, j)
     }
 
-    /// Integrates all elements for the displacement `u` of the control points and hands each to `take`.
+    /// Integrates all elements for the displacement `u` of the control points and hands each to `take`. Blocks with common
+    /// dilatations follow behind their elements: they add stiffness alone and are numbered behind all elements.
     /// Returns the strain energy, or `None` where `det F <= 0` somewhere.
     pub fn integrate(
         &self,
@@ -104,6 +144,9 @@ impl Elements {
         stiffness: bool,
         mut take: impl FnMut(usize, BulkForces),
     ) -> Option<f64> {
+        if let Some(volume) = &self.volume {
+            return self.integrate_projected(volume, material, u, stiffness, take);
+        }
         let n = self.nodes_per_element;
         let mut forces = vec![Point::zeros(); n];
         let mut sums = stiffness.then(|| Stiffness::new(n, self.points_per_element));
@@ -136,7 +179,7 @@ impl Elements {
 }
 
 /// `F = I + sum_a u_a x dN_a/dX`.
-fn deformation_gradient(nodes: &[usize], gradients: &[[f64; 2]], u: &[Point]) -> Matrix2<f64> {
+pub(super) fn deformation_gradient(nodes: &[usize], gradients: &[[f64; 2]], u: &[Point]) -> Matrix2<f64> {
     let mut f = [1.0, 0.0, 0.0, 1.0];
     for (&node, g) in nodes.iter().zip(gradients) {
         let d = u[node];

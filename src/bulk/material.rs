@@ -15,13 +15,30 @@ pub struct StressResponse {
     pub tangent: [[f64; 4]; 4],
 }
 
-/// A hyperelastic body in plane strain.
+/// Volume change at one point, as its energy sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Dilatation {
+    /// `theta`.
+    pub value: f64,
+    /// `d theta / d F_iJ`.
+    pub gradient: Matrix2<f64>,
+}
+
+/// A hyperelastic body in plane strain whose energy is quadratic in a dilatation `theta(F)`,
+///
+/// ```text
+/// psi(F) = psi_rest(F) + lambda/2 theta(F)^2
+/// ```
+///
+/// so that `tau = lambda theta`, the stress that resists the change of volume, can be taken from the point itself (the
+/// provided methods) or from its surroundings (near incompressibility, see [`VolumeSpace`](super::VolumeSpace)).
 pub trait Material: Debug + Send + Sync {
-    /// Stress, tangent and energy for the in-plane deformation gradient `f`; `None` where the material does not exist
-    /// (`det F <= 0`).
-    fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse>;
-    /// Energy and stress of [`Self::response`] without the tangent.
-    fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)>;
+    /// Dilatation for the in-plane deformation gradient `f`; `None` where the material does not exist (`det F <= 0`).
+    fn dilatation(&self, f: &Matrix2<f64>) -> Option<Dilatation>;
+    /// `psi_rest` and the stress `P = d psi_rest / dF + tau d theta / dF`.
+    fn elastic(&self, f: &Matrix2<f64>, dilatation: &Dilatation, tau: f64) -> (f64, Matrix2<f64>);
+    /// `d P / dF` at constant `tau`, as [`StressResponse::tangent`].
+    fn moduli(&self, dilatation: &Dilatation, tau: f64) -> [[f64; 4]; 4];
     /// True when the tangent is the same for every `f`.
     fn linear(&self) -> bool {
         false
@@ -30,8 +47,6 @@ pub trait Material: Debug + Send + Sync {
     fn youngs_modulus(&self) -> f64;
     /// Poisson's ratio at small strain.
     fn poissons_ratio(&self) -> f64;
-    /// Out-of-plane Cauchy stress in plane strain, for the von Mises stress.
-    fn out_of_plane(&self, f: &Matrix2<f64>) -> f64;
     /// True when the small-strain theory is used: the Cauchy stress is then the stress itself.
     fn small_strain(&self) -> bool {
         false
@@ -39,10 +54,48 @@ pub trait Material: Debug + Send + Sync {
     /// Name in the scene.
     fn name(&self) -> &'static str;
 
-    /// In-plane Cauchy stress, `P F^T / det F` at finite strain.
-    fn cauchy(&self, f: &Matrix2<f64>) -> Option<Matrix2<f64>> {
-        let (_, stress) = self.stress(f)?;
-        Some(if self.small_strain() { stress } else { stress * f.transpose() / f.determinant() })
+    /// Lame's constants `(lambda, mu)`.
+    fn lame(&self) -> (f64, f64) {
+        lame(self.youngs_modulus(), self.poissons_ratio())
+    }
+
+    /// Stress, tangent and energy for the in-plane deformation gradient `f`; `None` where the material does not exist.
+    fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse> {
+        let dilatation = self.dilatation(f)?;
+        let (lambda, Dilatation { value, gradient: g }) = (self.lame().0, dilatation);
+        let (rest, stress) = self.elastic(f, &dilatation, lambda * value);
+        let mut tangent = self.moduli(&dilatation, lambda * value);
+        add_dyad(&mut tangent, lambda, &g);
+        Some(StressResponse { energy: rest + 0.5 * lambda * value * value, stress, tangent })
+    }
+
+    /// Energy and stress of [`Self::response`] without the tangent.
+    fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
+        let dilatation = self.dilatation(f)?;
+        let (lambda, theta) = (self.lame().0, dilatation.value);
+        let (rest, stress) = self.elastic(f, &dilatation, lambda * theta);
+        Some((rest + 0.5 * lambda * theta * theta, stress))
+    }
+
+    /// Cauchy stress `xx, yy, zz, xy`, where `tau` follows from the dilatation; at finite strain `P F^T / det F`.
+    ///
+    /// In plane strain nothing but the dilatation acts out of the plane: `sigma_zz = tau / det F`, `tau` at small strain.
+    fn cauchy(&self, f: &Matrix2<f64>, tau: &dyn Fn(f64) -> f64) -> Option<[f64; 4]> {
+        let dilatation = self.dilatation(f)?;
+        let tau = tau(dilatation.value);
+        let (_, stress) = self.elastic(f, &dilatation, tau);
+        let (s, j) = if self.small_strain() { (stress, 1.0) } else { (stress * f.transpose(), f.determinant()) };
+        Some([s[(0, 0)], s[(1, 1)], tau, s[(0, 1)]].map(|v| v / j))
+    }
+}
+
+/// Adds `factor g x g` to moduli.
+pub(super) fn add_dyad(moduli: &mut [[f64; 4]; 4], factor: f64, g: &Matrix2<f64>) {
+    let g = [g[(0, 0)], g[(0, 1)], g[(1, 0)], g[(1, 1)]];
+    for (line, row) in moduli.iter_mut().zip(g) {
+        for (entry, column) in line.iter_mut().zip(g) {
+            *entry += factor * row * column;
+        }
     }
 }
 
@@ -69,42 +122,36 @@ pub struct NeoHookean {
     pub poissons_ratio: f64,
 }
 
-impl NeoHookean {
-    /// `ln J` and `F^-T`.
-    fn volume(f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
-        let j = f.determinant();
-        (j > 0.0).then(|| (j.ln(), Matrix2::new(f[(1, 1)], -f[(1, 0)], -f[(0, 1)], f[(0, 0)]) / j))
-    }
-
-    /// Energy and stress.
-    fn elastic(&self, f: &Matrix2<f64>, (log_j, t): &(f64, Matrix2<f64>)) -> (f64, Matrix2<f64>) {
-        let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
-        let energy = 0.5 * mu * (f.norm_squared() - 2.0 - 2.0 * log_j) + 0.5 * lambda * log_j * log_j;
-        (energy, (f - t) * mu + t * (lambda * log_j))
-    }
-}
-
 impl Material for NeoHookean {
-    fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
-        Some(self.elastic(f, &Self::volume(f)?))
+    fn dilatation(&self, f: &Matrix2<f64>) -> Option<Dilatation> {
+        let j = f.determinant();
+        let gradient = Matrix2::new(f[(1, 1)], -f[(1, 0)], -f[(0, 1)], f[(0, 0)]) / j;
+        (j > 0.0).then(|| Dilatation { value: j.ln(), gradient })
     }
 
-    fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse> {
-        let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
-        let volume = Self::volume(f)?;
-        let (energy, stress) = self.elastic(f, &volume);
-        let (log_j, t) = volume;
-        let geometric = mu - lambda * log_j;
-        let mut tangent = [[0.0; 4]; 4];
-        for (row, line) in tangent.iter_mut().enumerate() {
+    fn elastic(
+        &self,
+        f: &Matrix2<f64>,
+        &Dilatation { value, gradient: t }: &Dilatation,
+        tau: f64,
+    ) -> (f64, Matrix2<f64>) {
+        let (_, mu) = self.lame();
+        (0.5 * mu * (f.norm_squared() - 2.0 - 2.0 * value), (f - t) * mu + t * tau)
+    }
+
+    fn moduli(&self, Dilatation { gradient: t, .. }: &Dilatation, tau: f64) -> [[f64; 4]; 4] {
+        let (_, mu) = self.lame();
+        let geometric = mu - tau;
+        let mut moduli = [[0.0; 4]; 4];
+        for (row, line) in moduli.iter_mut().enumerate() {
             let (i, jj) = (row / 2, row % 2);
             for (column, value) in line.iter_mut().enumerate() {
                 let (k, l) = (column / 2, column % 2);
-                *value = lambda * t[(i, jj)] * t[(k, l)] + geometric * t[(i, l)] * t[(k, jj)];
+                *value = geometric * t[(i, l)] * t[(k, jj)];
             }
             line[row] += mu;
         }
-        Some(StressResponse { energy, stress, tangent })
+        moduli
     }
 
     fn youngs_modulus(&self) -> f64 {
@@ -113,12 +160,6 @@ impl Material for NeoHookean {
 
     fn poissons_ratio(&self) -> f64 {
         self.poissons_ratio
-    }
-
-    fn out_of_plane(&self, f: &Matrix2<f64>) -> f64 {
-        // F_33 = 1: sigma_33 = (mu (1 - 1) + lambda ln J) / J.
-        let (lambda, _) = lame(self.youngs_modulus, self.poissons_ratio);
-        lambda * f.determinant().ln() / f.determinant()
     }
 
     fn name(&self) -> &'static str {
@@ -136,23 +177,20 @@ pub struct LinearElastic {
 }
 
 impl Material for LinearElastic {
-    fn stress(&self, f: &Matrix2<f64>) -> Option<(f64, Matrix2<f64>)> {
-        let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
-        let strain = (f + f.transpose()) * 0.5 - Matrix2::identity();
-        let stress = Matrix2::identity() * (lambda * strain.trace()) + strain * (2.0 * mu);
-        stress.iter().all(|v| v.is_finite()).then(|| (0.5 * stress.dot(&strain), stress))
+    fn dilatation(&self, f: &Matrix2<f64>) -> Option<Dilatation> {
+        let finite = f.iter().all(|v| v.is_finite());
+        finite.then(|| Dilatation { value: f.trace() - 2.0, gradient: Matrix2::identity() })
     }
 
-    fn response(&self, f: &Matrix2<f64>) -> Option<StressResponse> {
-        let (lambda, mu) = lame(self.youngs_modulus, self.poissons_ratio);
-        let (energy, stress) = self.stress(f)?;
-        let tangent = [
-            [lambda + 2.0 * mu, 0.0, 0.0, lambda],
-            [0.0, mu, mu, 0.0],
-            [0.0, mu, mu, 0.0],
-            [lambda, 0.0, 0.0, lambda + 2.0 * mu],
-        ];
-        Some(StressResponse { energy, stress, tangent })
+    fn elastic(&self, f: &Matrix2<f64>, _: &Dilatation, tau: f64) -> (f64, Matrix2<f64>) {
+        let (_, mu) = self.lame();
+        let strain = (f + f.transpose()) * 0.5 - Matrix2::identity();
+        (mu * strain.norm_squared(), Matrix2::identity() * tau + strain * (2.0 * mu))
+    }
+
+    fn moduli(&self, _: &Dilatation, _: f64) -> [[f64; 4]; 4] {
+        let (_, mu) = self.lame();
+        [[2.0 * mu, 0.0, 0.0, 0.0], [0.0, mu, mu, 0.0], [0.0, mu, mu, 0.0], [0.0, 0.0, 0.0, 2.0 * mu]]
     }
 
     fn linear(&self) -> bool {
@@ -165,11 +203,6 @@ impl Material for LinearElastic {
 
     fn poissons_ratio(&self) -> f64 {
         self.poissons_ratio
-    }
-
-    fn out_of_plane(&self, f: &Matrix2<f64>) -> f64 {
-        let (lambda, _) = lame(self.youngs_modulus, self.poissons_ratio);
-        lambda * (f.trace() - 2.0)
     }
 
     fn small_strain(&self) -> bool {

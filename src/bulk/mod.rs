@@ -1,8 +1,14 @@
 //! Bodies: constitutive models and element assembly, total Lagrangian, plane strain, unit depth.
 
 mod elements;
+mod lumped;
 mod material;
+mod projected;
 mod stiffness;
+mod volume;
 
 pub use elements::{BulkForces, Elements};
-pub use material::{LinearElastic, Material, NeoHookean, StressResponse, lame};
+pub use lumped::lumped_areas;
+pub use material::{Dilatation, LinearElastic, Material, NeoHookean, StressResponse, lame};
+pub use projected::Tau;
+pub use volume::{VolumeSpace, confinement};

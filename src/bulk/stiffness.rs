@@ -1,5 +1,7 @@
 //! The inner loops of the element stiffness `K_aibk = sum_q w dN_a,J A_iJkL dN_b,L`.
 
+use crate::geometry::Point;
+
 /// Nodes that are treated at once.
 const LANES: usize = 4;
 
@@ -93,6 +95,73 @@ fn product(row: &[[f64; 8]], group: &[Gradients]) -> Blocks {
     sum
 }
 
+/// Sum of dyads `factor v v^T` of vectors at the nodes, kept like a [`Stiffness`].
+pub(super) struct Dyads {
+    /// Entries of each vector, group by group of nodes.
+    vectors: Vec<Gradients>,
+    groups: usize,
+    blocks: Vec<Blocks>,
+    arch: pulp::Arch,
+}
+
+impl Dyads {
+    pub fn new(nodes: usize, count: usize) -> Self {
+        let groups = nodes.div_ceil(LANES);
+        let vectors = vec![[[0.0; LANES]; 2]; groups * count];
+        Self { vectors, groups, blocks: vec![[[0.0; LANES]; 4]; first_block(nodes)], arch: pulp::Arch::new() }
+    }
+
+    /// Sets all vectors to zero, for another number of nodes.
+    pub fn clear(&mut self, nodes: usize) {
+        self.vectors.fill([[0.0; LANES]; 2]);
+        self.blocks.resize(first_block(nodes), [[0.0; LANES]; 4]);
+    }
+
+    /// Adds to vector `k` at a node.
+    pub fn add(&mut self, k: usize, node: usize, value: &Point) {
+        let [x, y] = &mut self.vectors[k * self.groups + node / LANES];
+        x[node % LANES] += value.x;
+        y[node % LANES] += value.y;
+    }
+
+    /// The sum over all vectors, for `nodes` nodes.
+    pub fn sum(&mut self, nodes: usize, factor: f64) -> &[f64] {
+        self.arch.dispatch(SumDyads { dyads: self, nodes, factor });
+        self.blocks.as_flattened().as_flattened()
+    }
+}
+
+/// The work, for the widest registers that the machine has.
+struct SumDyads<'a> {
+    dyads: &'a mut Dyads,
+    nodes: usize,
+    factor: f64,
+}
+
+impl pulp::NullaryFnOnce for SumDyads<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Dyads { vectors, groups, blocks, .. } = self.dyads;
+        let mut target = blocks.iter_mut();
+        for a in 0..self.nodes {
+            for (g, block) in (0..a / LANES + 1).zip(&mut target) {
+                let mut sum = [[0.0; LANES]; 4];
+                for vector in vectors.chunks_exact(*groups) {
+                    for (ik, sum) in sum.iter_mut().enumerate() {
+                        let row = self.factor * vector[a / LANES][ik / 2][a % LANES];
+                        for lane in 0..LANES {
+                            sum[lane] += row * vector[g][ik % 2][lane];
+                        }
+                    }
+                }
+                *block = sum;
+            }
+        }
+    }
+}
+
 /// Number of blocks before those of node `a`.
 fn first_block(a: usize) -> usize {
     let full = a / LANES;
@@ -133,6 +202,25 @@ mod tests {
                     0.1 * (q + 1) as f64 * (0..4).map(at).sum::<f64>()
                 };
                 let expected: f64 = (0..points).map(term).sum();
+                assert!((found[place(i, j)] - expected).abs() < 1e-12, "{nodes} nodes, ({i}, {j})");
+            }
+        }
+    }
+
+    /// As above, of one set of vectors after another of a different number of nodes.
+    #[test]
+    fn dyads_hold_the_plain_sum() {
+        let noise = |k: usize| ((k * 7919) % 1009) as f64 / 504.5 - 1.0;
+        let mut dyads = Dyads::new(16, 3);
+        for nodes in [16, 9, 6] {
+            let vector = |k: usize, i: usize| noise(100 * k + i);
+            dyads.clear(nodes);
+            for (k, a) in (0..3).flat_map(|k| (0..nodes).map(move |a| (k, a))) {
+                dyads.add(k, a, &Point::new(vector(k, 2 * a), vector(k, 2 * a + 1)));
+            }
+            let found = dyads.sum(nodes, 2.5).to_vec();
+            for (i, j) in (0..2 * nodes).flat_map(|i| (0..2 * nodes).map(move |j| (i, j))) {
+                let expected: f64 = (0..3).map(|k| 2.5 * vector(k, i) * vector(k, j)).sum();
                 assert!((found[place(i, j)] - expected).abs() < 1e-12, "{nodes} nodes, ({i}, {j})");
             }
         }

@@ -7,21 +7,26 @@ mod check;
 mod laws;
 mod outcome;
 mod probe;
+mod report;
+mod resume;
 mod run;
+mod sweep;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::scene::Scene;
+use crate::study::Study;
 use clap::{Args, Parser, Subcommand};
 
-use outcome::{Exit, Failure, report, say};
+use outcome::{Exit, Failure, say};
 
 const AFTER_HELP: &str = "\
 Examples:
   asperity check examples/single_asperity.toml
   asperity run examples/single_asperity.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
   asperity certify examples/single_asperity.toml
+  asperity sweep examples/sweep/study.toml
   asperity laws coulomb
   asperity laws rate-and-state --probe examples/probe.toml
 
@@ -31,7 +36,7 @@ Exit codes:
   2  bad input: nothing was computed, the message names file, line, key and what is allowed
   3  did not converge: all steps before are kept
   4  converged, but an audit failed: do not trust the result
-  5  interrupted: all steps before are kept";
+  5  interrupted: all steps before and a checkpoint are kept; the same command with --resume goes on";
 
 /// Large-deformation frictional contact of soft asperities in plane strain.
 ///
@@ -49,7 +54,8 @@ enum Command {
     /// Compute a scene and write a folder of results.
     ///
     /// The folder holds history.csv (one row per nominal step), interface.csv, fields/*.vtu with fields.pvd, figures
-    /// and run.json. Ctrl-C stops at the next iteration and keeps everything computed so far (exit code 5).
+    /// and run.json. Ctrl-C stops at the next iteration and keeps everything computed so far (exit code 5); after that, or
+    /// after a crash or a kill at any moment, --resume goes on behind the last step that was reached.
     Run(RunArguments),
     /// Compute a scene and check every step against a second, independent method.
     ///
@@ -57,6 +63,13 @@ enum Command {
     /// and its contact forces are certified; certify.csv holds the differences, and a summary is printed. Exit code 4
     /// if the methods disagree.
     Certify(RunArguments),
+    /// Compute a scene again and again with some of its values changed; one table and figures at the end.
+    ///
+    /// Points run in parallel over the cores, each into a folder of its own below the study's. A point that is there already is
+    /// not computed again, so the same command continues after Ctrl-C, and computes only what is new after a change. A point that
+    /// fails is recorded with its reason in study.csv, and the others are computed; the exit code is then 3 (no convergence, or a
+    /// scene that cannot be built) or 4 (an audit failed).
+    Sweep(sweep::SweepArguments),
     /// Validate a scene and print the model chosen: what is modelled, what is left out and why, sizes.
     ///
     /// Nothing is computed and nothing is written. Exit code 2 if the scene cannot be used.
@@ -76,11 +89,35 @@ enum Command {
         #[arg(long, value_name = "DIR", requires = "probe")]
         out: Option<PathBuf>,
     },
-    /// Print the JSON schema of a scene.
+    /// Write one self-contained HTML file about a run or a study.
+    ///
+    /// It says what was computed and how to compute it again, shows all figures, an animation of the pass, tables, audits and
+    /// warnings, and needs neither network nor other files.
+    Report {
+        /// Folder of a run or a study.
+        folder: PathBuf,
+        /// The file to write [default: report.html in the folder].
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Print the JSON schema of a scene or of a study.
     ///
     /// Editors that know JSON schemas for TOML (for example taplo) complete and check a scene with it:
     /// asperity schema > scene.schema.json
-    Schema,
+    Schema {
+        /// Whose schema.
+        #[arg(value_enum, default_value_t = Kind::Scene)]
+        of: Kind,
+    },
+}
+
+/// Files that have a schema.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Kind {
+    /// What `run` and `check` read.
+    Scene,
+    /// What `sweep` reads.
+    Study,
 }
 
 /// A scene and what is changed in it.
@@ -106,6 +143,12 @@ struct RunArguments {
     /// Check every step against the conic method, see `asperity certify`; takes several times as long.
     #[arg(long)]
     certify: bool,
+    /// Go on with the run in the folder of the results, bit for bit as if it had not been interrupted.
+    ///
+    /// The scene must be the same; only a later `time.end` with steps of the same length is accepted, and, for a run that did not
+    /// converge, more `time.max_cuts` from its last step on. Where no step was reached yet the run starts from the beginning; a finished one is left as it is.
+    #[arg(long)]
+    resume: bool,
     /// Print errors only.
     #[arg(long)]
     quiet: bool,
@@ -116,14 +159,20 @@ pub fn main() -> ExitCode {
     let outcome = match &Cli::parse().command {
         Command::Run(arguments) => run::run(arguments, arguments.certify),
         Command::Certify(arguments) => run::run(arguments, true),
+        Command::Sweep(arguments) => sweep::command(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Laws { name, probe, out } => laws::laws(name.as_deref(), probe.as_deref(), out.as_deref()),
-        Command::Schema => schema(),
+        Command::Report { folder, out } => report::report(folder, out.as_deref()),
+        Command::Schema { of } => schema(*of),
     };
-    report(outcome)
+    outcome::report(outcome)
 }
 
-fn schema() -> Result<Exit, Failure> {
-    say(&format!("{:#}\n", Scene::grammar().root()))?;
+fn schema(of: Kind) -> Result<Exit, Failure> {
+    let grammar = match of {
+        Kind::Scene => Scene::grammar(),
+        Kind::Study => Study::grammar(),
+    };
+    say(&format!("{:#}\n", grammar.root()))?;
     Ok(Exit::Done)
 }

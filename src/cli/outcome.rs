@@ -19,7 +19,7 @@ pub enum Exit {
     NotConverged = 3,
     /// Every step converged, but the result breaks a property it must have; it is kept.
     AuditFailed = 4,
-    /// Stopped by the user; results up to there are kept.
+    /// Stopped by the user; results up to there and a checkpoint are kept.
     Interrupted = 5,
 }
 
@@ -77,6 +77,11 @@ pub fn report(outcome: Result<Exit, Failure>) -> ExitCode {
         failure.exit()
     });
     ExitCode::from(exit as u8)
+}
+
+/// Prints a note to stderr. A closed stderr must not stop a computation.
+pub fn note(text: impl Display) {
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// Prints a warning to stderr. A closed stderr must not stop a computation.

@@ -15,7 +15,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::RunArguments;
 use super::certify::table;
 use super::check::load;
-use super::outcome::{Exit, Failure, say, warn};
+use super::outcome::{Exit, Failure, note, say, warn};
+use super::resume::{begin, command};
 
 /// Computes a scene into a folder; `certify`: and checks every step by the conic method.
 pub fn run(arguments: &RunArguments, certify: bool) -> Result<Exit, Failure> {
@@ -24,14 +25,26 @@ pub fn run(arguments: &RunArguments, certify: bool) -> Result<Exit, Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.scene.scene));
     let folder = RunFolder::create(&out)
         .map_err(|error| Failure::input(format!("{error}\n  = argument: --out {}", out.display())))?;
+    let start = begin(arguments, &scene, &model, &folder)?;
+    if start.finished(&scene) {
+        if !arguments.quiet {
+            say(&format!("already done: {} steps; results in {}\n", start.step(), out.display()))?;
+        }
+        return conclude(&Status::Done, &start.findings(), &out);
+    }
     let interrupt = on_interrupt()?;
     if !arguments.quiet {
         step_warnings(&model, &scene::time_plan(&scene)).iter().for_each(warn);
     }
     let mut progress = Progress::new(&scene, arguments.quiet);
-    let report = scene::run(&scene, &model, &folder, &interrupt, |record| progress.step(record));
+    let report = scene::resume(&scene, &model, &folder, start, &interrupt, |record| progress.step(record));
     progress.end();
-    let RunReport { outcome, findings, certified } = report.map_err(Failure::internal)?;
+    let again = command(arguments, &out);
+    let RunReport { outcome, findings, certified } = report.map_err(|error| {
+        Failure::internal(format!(
+            "{error}\n  = help: the steps before are kept; once this is put right, go on by\n    {again}"
+        ))
+    })?;
     if !arguments.quiet {
         findings.iter().filter(|finding| finding.warns()).for_each(warn);
         if scene.solution.certify {
@@ -40,6 +53,9 @@ pub fn run(arguments: &RunArguments, certify: bool) -> Result<Exit, Failure> {
         let state = scene::status_name(&outcome.status);
         let (steps, iterations, cuts) = (outcome.steps, outcome.iterations, outcome.cuts);
         say(&format!("{state}: {steps} steps, {iterations} iterations, {cuts} cuts; results in {}\n", out.display()))?;
+        if let Status::Interrupted { .. } = outcome.status {
+            note(format!("the checkpoint is kept; go on by\n  {again}"));
+        }
     }
     conclude(&outcome.status, &findings, &out)
 }
@@ -55,7 +71,8 @@ fn conclude(status: &Status, findings: &[Finding], out: &Path) -> Result<Exit, F
         Status::Done => Ok(Exit::Done),
         Status::Interrupted { .. } => Ok(Exit::Interrupted),
         Status::NotConverged { time, reason } => Err(Failure::not_converged(format!(
-            "no convergence after time {time}: {reason}\n  = help: all steps before are kept in {}",
+            "no convergence after time {time}: {reason}\n  = help: all steps before are kept in {}; a larger `time.max_cuts` may be \
+             tried from there with --resume",
             out.display()
         ))),
     }
@@ -66,7 +83,7 @@ fn default_folder(scene: &Path) -> PathBuf {
 }
 
 /// The first Ctrl-C asks the march to stop, the second stops the program at once.
-fn on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
+pub fn on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let raised = flag.clone();
     let handler = move || {

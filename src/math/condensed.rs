@@ -8,10 +8,11 @@ mod solver;
 
 use std::sync::Arc;
 
-use super::{DenseMatrix, Pattern, SolveError, SparseMatrix};
+use super::{DenseMatrix, Pattern, SolveError, SparseMatrix, checksum};
 use part::Part;
 
 pub(super) use analysis::view;
+pub use extent::Choice;
 pub use solver::CondensedSolver;
 
 /// Static condensation of a symmetric bulk stiffness `K` on its boundary unknowns B, the interior I eliminated by sparse
@@ -90,6 +91,11 @@ impl Condensed {
             factored += usize::from(part.factor(&bulk.values, own)?);
         }
         Ok(factored)
+    }
+
+    /// Checksum of the values that are factored; `None` where some part is not.
+    pub fn checksum(&self) -> Option<u64> {
+        self.parts.iter().map(Part::checksum).collect::<Option<Vec<_>>>().map(checksum)
     }
 
     /// Adds `S` to the leading rows and columns of `target`, in the order of [`Self::boundary`].

@@ -1,5 +1,6 @@
 //! Quadrature, sparse matrices and their factorisation.
 
+mod checksum;
 mod condensed;
 mod dense;
 mod quadrature;
@@ -7,10 +8,11 @@ mod solver;
 mod sparse;
 mod sparse_lu;
 
+pub use checksum::checksum;
 pub use condensed::{Condensed, CondensedSolver};
 pub use dense::{DenseLu, DenseMatrix};
 pub use quadrature::{GaussRule, gauss};
-pub use solver::{Counters, LinearSolver, SolveError};
+pub use solver::{Counters, LinearSolver, SolveError, SolverMemory};
 pub use sparse::{Pattern, SparseMatrix, System, Triplets};
 pub use sparse_lu::SparseLu;
 

@@ -1,6 +1,9 @@
 //! What a linear solver is, and the check that every solution passes.
 
+use serde::{Deserialize, Serialize};
+
 use super::System;
+use super::condensed::Choice;
 
 /// Why a linear system was not solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -20,7 +23,7 @@ pub enum SolveError {
 }
 
 /// What the solutions so far took.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Symbolic analyses for the condensed solver: one per mesh, and one for each new choice of what is kept in the dense block.
     pub analyses: usize,
@@ -36,6 +39,19 @@ pub struct Counters {
     pub inaccurate: usize,
 }
 
+/// What a solver carries from one solution to the next, as far as later solutions or counters depend on it. A fresh solver that
+/// recalls it goes on bit for bit like the one that gave it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SolverMemory {
+    /// What it took so far.
+    pub counters: Counters,
+    /// Which unknowns are kept out of the interior; `None` before the first condensation. The order of elimination, and with it
+    /// the round-off, follows from it.
+    pub choice: Option<Choice>,
+    /// Checksum of the stiffness that is factored: the same one is not factored, nor counted, again.
+    pub stiffness: Option<u64>,
+}
+
 /// Solves Newton systems; keeps what can be reused from one to the next.
 pub trait LinearSolver: Send {
     /// Solution of `system x = rhs`, finite and with its residual checked.
@@ -46,6 +62,12 @@ pub trait LinearSolver: Send {
 
     /// What it took so far.
     fn counters(&self) -> Counters;
+
+    /// What it would need to go on elsewhere.
+    fn memory(&self) -> SolverMemory;
+
+    /// Goes on from what another solver of its kind remembered.
+    fn recall(&mut self, memory: SolverMemory);
 
     /// Numeric factorisations so far.
     fn factorisations(&self) -> usize {

@@ -8,7 +8,7 @@ use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::{Conj, MatMut, Par};
 
 use super::condensed::view;
-use super::solver::{Counters, checked};
+use super::solver::{Counters, SolverMemory, checked};
 use super::{LinearSolver, Pattern, SolveError, SparseMatrix, System};
 
 /// faer's sparse LU (COLAMD order). The symbolic analysis is kept while the pattern stays the same.
@@ -49,5 +49,13 @@ impl LinearSolver for SparseLu {
 
     fn counters(&self) -> Counters {
         self.counters
+    }
+    // the symbolic analysis follows from the pattern alone
+    fn memory(&self) -> SolverMemory {
+        SolverMemory { counters: self.counters, ..SolverMemory::default() }
+    }
+
+    fn recall(&mut self, memory: SolverMemory) {
+        self.counters = memory.counters;
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::bulk::{Elements, Material};
+use crate::bulk::{Elements, Material, VolumeSpace};
 use crate::geometry::{Curve, Edge, Patch, Point};
 
 /// What a body is made of.
@@ -52,6 +52,17 @@ impl Body {
             BodyKind::Deformable { material, .. } => Some(material),
             BodyKind::Rigid { .. } => None,
         }
+    }
+
+    /// How the change of volume enters the energy of a deformable body, and why.
+    pub fn volumetric(&self) -> Option<String> {
+        let BodyKind::Deformable { elements, material, .. } = &self.kind else { return None };
+        let nu = material.poissons_ratio();
+        Some(match (elements.volume(), VolumeSpace::asked_by(material.as_ref())) {
+            (Some(space), _) => format!("dilatations projected onto {space}, because nu = {nu} > 0.4"),
+            (None, false) => format!("dilatations at each point, enough for nu = {nu} <= 0.4"),
+            (None, true) => format!("dilatations at each point, as demanded: locks at nu = {nu} > 0.4"),
+        })
     }
 
     /// An edge, with `nodes` counted inside the body.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use asperity_laws::FrictionLaw;
 
-use crate::bulk::{Elements, Material};
+use crate::bulk::{Elements, Material, VolumeSpace, confinement};
 use crate::contact::{Integration, Mortar, Numerics, Projection, Sites};
 use crate::geometry::{Basis, Curve, Edge, Patch, Point};
 use crate::math::gauss;
@@ -102,10 +102,27 @@ impl Builder {
     /// # Errors
     /// [`ModelError::Folded`] where the patch is not invertible.
     pub fn body(&mut self, name: &str, spec: BodySpec) -> Result<&mut Self, ModelError> {
+        let volume = match &spec {
+            BodySpec::Deformable(patch, material) => VolumeSpace::needed(patch, material.as_ref()),
+            BodySpec::Rigid(_) => None,
+        };
+        self.body_in(name, spec, volume)
+    }
+
+    /// Adds a body whose dilatations are projected onto a space (`None`: not projected).
+    ///
+    /// # Errors
+    /// As [`Self::body`].
+    pub fn body_in(
+        &mut self,
+        name: &str,
+        spec: BodySpec,
+        volume: Option<VolumeSpace>,
+    ) -> Result<&mut Self, ModelError> {
         let offset = self.bodies.last().map_or(0, |b| b.nodes().end);
         let (kind, points) = match spec {
             BodySpec::Deformable(patch, material) => {
-                let elements = Elements::new(&patch).ok_or_else(|| ModelError::Folded(name.into()))?;
+                let elements = Elements::new(&patch, volume).ok_or_else(|| ModelError::Folded(name.into()))?;
                 let points = patch.points.clone();
                 (BodyKind::Deformable { patch, elements, material }, points)
             }
@@ -165,7 +182,7 @@ impl Builder {
             element_size = element_size.min(size);
             pairs.push(pair);
         }
-        let modulus = self.bodies.iter().filter_map(Body::material).map(|m| m.youngs_modulus());
+        let materials = || self.bodies.iter().filter_map(Body::material);
         let driven = self.motions.iter().find(|m| m.drive).map(|m| m.body);
         Ok(Model {
             stride: pairs.iter().flat_map(|p| [&p.nonmortar, &p.mortar]).fold(f64::INFINITY, |m, side| {
@@ -173,7 +190,8 @@ impl Builder {
                 m.min(0.25 * points().zip(points().skip(1)).map(|(a, b)| (b - a).norm()).sum::<f64>())
             }),
             driven: driven.or(pairs.first().map(|p| p.nonmortar.body)).unwrap_or(0),
-            modulus: modulus.fold(f64::INFINITY, f64::min),
+            modulus: materials().map(|m| m.youngs_modulus()).fold(f64::INFINITY, f64::min),
+            confinement: materials().map(|m| confinement(m.as_ref())).fold(1.0, f64::max),
             element_size: if element_size.is_finite() { element_size } else { mean_element(&self.bodies) },
             bodies: self.bodies,
             motions: self.motions,

@@ -41,7 +41,7 @@ pub struct Equations {
 #[derive(Clone, Debug, Default)]
 pub struct Scatter {
     /// Place in the element stiffness and in the values of the pattern, element by element.
-    entries: Vec<(u16, u32)>,
+    entries: Vec<(u32, u32)>,
     /// Where the entries of each element end.
     ends: Vec<usize>,
 }
@@ -55,7 +55,7 @@ impl Scatter {
             for (j, column) in known() {
                 for (i, row) in known().filter(|(_, row)| *row >= column) {
                     let target = pattern.position(row, column).expect("elements are cliques of the pattern");
-                    let place = u16::try_from(Elements::place(i, j)).expect("at most 81 nodes in an element");
+                    let place = u32::try_from(Elements::place(i, j)).expect("far fewer than 2^32 entries");
                     this.entries.push((place, u32::try_from(target).expect("fewer than 2^32 entries")));
                 }
             }
@@ -127,7 +127,7 @@ fn element_unknowns(body: &Body, dofs: &[[Dof; 2]]) -> Vec<Vec<Option<usize>>> {
         Dof::Unknown(e) => Some(e),
         _ => None,
     };
-    (0..elements.count())
+    (0..elements.cliques())
         .map(|e| elements.nodes(e).iter().flat_map(|&a| dofs[body.offset + a].map(unknown)).collect())
         .collect()
 }

@@ -3,6 +3,7 @@
 mod assembly;
 mod body;
 mod build;
+mod drag;
 mod equations;
 mod linearised;
 mod loaded;
@@ -14,6 +15,7 @@ pub use crate::contact::{ContactStatus, Tangent};
 pub use assembly::{Evaluation, evaluate, explain, suggested_step};
 pub use body::{Body, BodyKind};
 pub use build::{BodySpec, Builder, ModelError, PairSpec};
+pub use drag::Drag;
 pub use equations::{Dof, Equations};
 pub use linearised::Linearised;
 pub use loaded::{Loaded, load};
@@ -76,6 +78,9 @@ pub struct Model {
     pub driven: usize,
     /// Stress scale: the smallest Young's modulus.
     pub modulus: f64,
+    /// How much stiffer against changes of volume the bodies are than at a Poisson's ratio of 0.4, at least 1: see
+    /// [`confinement`](crate::bulk::confinement).
+    pub confinement: f64,
     /// A quarter of the shortest contact edge: what a driven body may travel in one step without passing through another
     /// unseen.
     pub stride: f64,

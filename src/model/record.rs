@@ -52,6 +52,10 @@ pub struct Record {
     /// Share of the bodies' tangential stiffness that friction takes away by falling with the slip rate, see
     /// `solve::weakening`; 0 where it does not matter.
     pub weakening: f64,
+    /// Snaps that were crossed in the step.
+    pub snaps: usize,
+    /// Cumulative energy that they set free.
+    pub snap_loss: f64,
 }
 
 /// One row of `interface.csv`.
@@ -140,6 +144,7 @@ pub fn record(model: &Model, state: &State, evaluation: &Evaluation) -> Record {
         penetration_max: evaluation.interfaces.iter().fold(0.0, |m, i| m.max(i.penetration)),
         strain_energy: evaluation.strain_energy,
         dissipated: state.ledger.dissipated,
+        snap_loss: state.ledger.snap_loss,
         external_work: state.ledger.external_work,
         converged: true,
         reaction_base: [-on_base.x, up * on_base.y],

@@ -26,6 +26,8 @@ pub struct Ledger {
     pub external_work: f64,
     /// Work of friction.
     pub dissipated: f64,
+    /// Energy set free where an equilibrium path ended and the bodies snapped to another one.
+    pub snap_loss: f64,
     /// Force of each motion at this state.
     pub forces: Vec<f64>,
 }

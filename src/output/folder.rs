@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity_laws::Variable;
 
-use super::run_json::{write_atomic, write_json};
+use super::run_json::{remove_hidden, write_atomic, write_json};
 use super::tables::{HistoryWriter, InterfaceWriter};
 use super::vtu::FieldSeries;
 use super::{OutputError, UnitLabels, readme};
@@ -23,10 +23,19 @@ impl RunFolder {
     /// The path and the reason, before any time is spent on a computation.
     pub fn create(root: &Path) -> Result<Self, OutputError> {
         fs::create_dir_all(root).map_err(OutputError::io("create the output folder", root))?;
-        let probe = root.join(format!(".writable.{}", std::process::id()));
+        let probe = root.join(format!(".writable.{}.tmp", std::process::id()));
         fs::write(&probe, b"").map_err(OutputError::io("write into the output folder", root))?;
         fs::remove_file(&probe).map_err(OutputError::io("write into the output folder", root))?;
         Ok(Self { root: root.to_path_buf() })
+    }
+
+    /// Removes what a program that was killed in the middle of writing left behind.
+    ///
+    /// # Errors
+    /// The path and the operating system's reason.
+    pub fn tidy(&self) -> Result<(), OutputError> {
+        let folders = ["", "checkpoint", "fields", "figures"];
+        folders.iter().try_for_each(|folder| remove_hidden(&self.root.join(folder)))
     }
 
     /// The folder itself.
@@ -57,6 +66,16 @@ impl RunFolder {
     /// Path of `run.json`.
     pub fn run_json(&self) -> PathBuf {
         self.root.join("run.json")
+    }
+
+    /// Folder of the checkpoint.
+    pub fn checkpoint(&self) -> PathBuf {
+        self.root.join("checkpoint")
+    }
+
+    /// True if `history.csv` holds at least one row.
+    pub fn holds_rows(&self) -> bool {
+        fs::read_to_string(self.history()).is_ok_and(|text| text.lines().nth(1).is_some())
     }
 
     /// Folder of the figures, created on first use.

@@ -17,7 +17,8 @@ history.csv     one row per nominal step
 interface.csv   one row per interface site and nominal step
 certify.csv     one row per accepted step, where the run was certified
 fields.pvd      opens all fields in ParaView (time series of fields/*.vtu)
-figures/        every figure as SVG (vector) and PNG
+figures/        every figure as SVG (vector) and PNG; animation.svg moves in a browser
+checkpoint/     what `asperity run --resume` goes on from; not needed to read the results
 README.txt      this file
 
 Plane strain: forces and energies are per unit of thickness. Numbers read back bit for bit; nan = undefined.

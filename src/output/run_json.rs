@@ -21,8 +21,16 @@ pub fn write_json(path: &Path, value: &serde_json::Value) -> Result<(), OutputEr
 /// # Errors
 /// The path and the operating system's reason; the hidden file is removed and an existing `path` stays as it was.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    replace(path, bytes, true)
+}
+
+/// As [`write_atomic`]; without `sync` a killed program leaves the old or the new content, a power failure perhaps neither.
+///
+/// # Errors
+/// As [`write_atomic`].
+pub fn replace(path: &Path, bytes: &[u8], sync: bool) -> Result<(), OutputError> {
     let hidden = hidden_beside(path);
-    let written = write_synced(&hidden, bytes)
+    let written = write_hidden(&hidden, bytes, sync)
         .map_err(OutputError::io("write", path))
         .and_then(|()| fs::rename(&hidden, path).map_err(OutputError::io("replace", path)));
     if written.is_err() {
@@ -32,10 +40,26 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     written
 }
 
-fn write_synced(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+/// Removes hidden files that a killed program left in a folder, if there is one.
+///
+/// # Errors
+/// The path and the operating system's reason.
+pub fn remove_hidden(folder: &Path) -> Result<(), OutputError> {
+    let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let process = name.strip_suffix(".tmp").and_then(|name| name.rsplit('.').next()?.parse::<u32>().ok());
+        if name.starts_with('.') && process.is_some() {
+            fs::remove_file(&path).map_err(OutputError::io("remove", &path))?;
+        }
+    }
+    Ok(())
+}
+
+fn write_hidden(path: &Path, bytes: &[u8], sync: bool) -> std::io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
-    file.sync_all()
+    if sync { file.sync_all() } else { Ok(()) }
 }
 
 fn hidden_beside(path: &Path) -> PathBuf {
@@ -57,6 +81,9 @@ mod tests {
             let back: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
             assert_eq!(back, value);
         }
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::write(hidden_beside(&path), "half").unwrap();
+        remove_hidden(&folder).unwrap();
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
         fs::remove_dir_all(&folder).unwrap();
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::issue::{Issue, KeyPath, SceneError, listed};
 use super::motion::{Course, Motion};
-use super::numerics::{Integration, Projection, Sites, stable_degrees};
+use super::numerics::{Integration, Projection, Sites, Volumetric, stable_degrees};
 use super::rules::law_issue;
 use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
 use crate::bulk::{LinearElastic, Material, NeoHookean};
@@ -27,7 +27,11 @@ pub fn build(scene: &Scene, base_dir: &Path) -> Result<Model, SceneError> {
     }
     for (name, spec) in bodies {
         let key = KeyPath::of("body").at(name).at("shape");
-        builder.body(name, spec).map_err(|error| model_issue(&error, &key))?;
+        let added = match scene.body[name].volumetric {
+            Volumetric::Auto => builder.body(name, spec),
+            Volumetric::Standard => builder.body_in(name, spec, None),
+        };
+        added.map_err(|error| model_issue(&error, &key))?;
     }
     motions(scene, &mut builder)?;
     let model = builder.build().map_err(|error| model_issue(&error, &KeyPath::of("contact")))?;

@@ -16,14 +16,16 @@ pub(super) struct Certifier<'a> {
     folder: &'a RunFolder,
     table: Option<CertifyWriter>,
     tally: Tally,
-    /// All rows so far.
+    /// All rows of this run, without those before it was interrupted.
     pub rows: Vec<CertifyRow>,
 }
 
 impl<'a> Certifier<'a> {
-    /// Opens the table where the scene is to be certified.
-    pub fn new(scene: &Scene, folder: &'a RunFolder) -> Result<Self, OutputError> {
-        let table = scene.solution.certify.then(|| CertifyWriter::create(&folder.certify())).transpose()?;
+    /// Opens the table where the scene is to be certified; that of an interrupted run goes on behind nominal step `reached`.
+    pub fn new(scene: &Scene, folder: &'a RunFolder, reached: usize) -> Result<Self, OutputError> {
+        let path = folder.certify();
+        let open = || if reached > 0 { CertifyWriter::resume(&path, reached) } else { CertifyWriter::create(&path) };
+        let table = scene.solution.certify.then(open).transpose()?;
         Ok(Self { folder, table, tally: Tally::default(), rows: vec![] })
     }
 

@@ -14,13 +14,16 @@ pub(super) fn bodies<'a>(model: &'a Model, u: &'a [Point]) -> Vec<BodyField<'a>>
 
 fn fields<'a>(body: &'a Body, u: &'a [Point]) -> Vec<BodyField<'a>> {
     match &body.kind {
-        BodyKind::Deformable { patch, material, .. } => {
-            let deformed = moved(patch, u);
+        BodyKind::Deformable { patch, elements, material } => {
+            let (deformed, tau) = (moved(patch, u), elements.tau(material.as_ref(), u));
             vec![BodyField::Deformable {
                 name: &body.name,
                 patch,
                 displacement: u,
-                stress: Box::new(move |element, uv| sample(material.as_ref(), patch, &deformed, element, uv)),
+                stress: Box::new(move |element, uv| {
+                    let f = deformation_gradient(patch, &deformed, element, uv);
+                    sample(material.as_ref(), f, &|theta| tau.at(element, uv, theta))
+                }),
             }]
         }
         BodyKind::Rigid { curves } => {
@@ -40,16 +43,16 @@ fn moved(patch: &Patch, u: &[Point]) -> Patch {
     Patch { points, ..patch.clone() }
 }
 
-/// `F = (dx/dxi) (dX/dxi)^-1`; undefined where the map degenerates (a corner of a disk) or the body is inverted.
-fn sample(material: &dyn Material, patch: &Patch, deformed: &Patch, element: [usize; 2], uv: [f64; 2]) -> CauchySample {
+/// `F = (dx/dxi) (dX/dxi)^-1`; undefined where the map degenerates (a corner of a disk).
+fn deformation_gradient(patch: &Patch, deformed: &Patch, element: [usize; 2], uv: [f64; 2]) -> Option<Matrix2<f64>> {
     let columns = |patch: &Patch| Matrix2::from_columns(&patch.map(element, uv).1);
-    let f = columns(patch).try_inverse().map(|inverse| columns(deformed) * inverse);
-    let answer = f.and_then(|f| Some((f, material.cauchy(&f)?)));
-    match answer {
-        Some((f, s)) => CauchySample {
-            stress: [s[(0, 0)], s[(1, 1)], material.out_of_plane(&f), s[(0, 1)]],
-            det_f: f.determinant(),
-        },
+    columns(patch).try_inverse().map(|inverse| columns(deformed) * inverse)
+}
+
+/// Undefined also where the body is inverted.
+fn sample(material: &dyn Material, f: Option<Matrix2<f64>>, tau: &dyn Fn(f64) -> f64) -> CauchySample {
+    match f.and_then(|f| Some((f, material.cauchy(&f, tau)?))) {
+        Some((f, stress)) => CauchySample { stress, det_f: f.determinant() },
         None => CauchySample { stress: [f64::NAN; 4], det_f: f64::NAN },
     }
 }

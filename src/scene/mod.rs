@@ -8,6 +8,8 @@
 
 mod build;
 mod certify;
+mod checkpoint;
+mod describe;
 mod fields;
 mod grammar;
 mod issue;
@@ -26,16 +28,16 @@ mod tree;
 
 use std::path::Path;
 
-use serde::Deserialize;
-
 pub use build::build;
+pub use checkpoint::{Checkpoint, ResumeError};
+pub use describe::{left_out, modelled, size_lines};
 pub use grammar::Grammar;
 pub use issue::{Focus, Issue, KeyPath, Place, SceneError};
 pub use motion::{Components, Course, DriveSpec, Motion, SupportSpec, TimeTable};
 pub use numerics::{Integration, Numerics, Projection, Sites, Solution, Solver};
 pub use probe::Probe;
 pub use programme::Programme;
-pub use run::{RunReport, run, sizes, status_name, time_plan};
+pub use run::{RunReport, resume, run, sizes, status_name, time_plan};
 pub use source::Source;
 pub use spec::{BodySpec, ContactSpec, MaterialSpec, OutputSpec, Scene, Side, TimeSpec, Units};
 
@@ -46,11 +48,7 @@ impl Scene {
     /// # Errors
     /// Everything that is wrong with the file, each with its place.
     pub fn load(file: &Path, sets: &[String]) -> Result<(Self, Source), SceneError> {
-        let text = std::fs::read_to_string(file).map_err(|error| {
-            let message = format!("cannot read the scene {}: {error}", file.display());
-            SceneError::from(Issue::value(KeyPath::default(), message).allowed("a TOML file in UTF-8"))
-        })?;
-        Self::parse(file, text, sets)
+        Self::parse(file, Source::text_of(file, "scene")?, sets)
     }
 
     /// As [`Scene::load`] with the text at hand; `file` is for messages only.
@@ -63,8 +61,15 @@ impl Scene {
         for argument in sets {
             source.set(&grammar, argument)?;
         }
-        let scene = read(&grammar, &source).map_err(|error| source.locate(error))?;
-        Ok((scene, source))
+        Ok((Self::of(&grammar, &source)?, source))
+    }
+
+    /// Reads and checks the scene that a source holds; `grammar` is [`Scene::grammar`], made once for many scenes.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn of(grammar: &Grammar, source: &Source) -> Result<Self, SceneError> {
+        read(grammar, source).map_err(|error| source.locate(error))
     }
 
     /// The structure of a scene as a JSON schema.
@@ -86,10 +91,7 @@ fn fail_on(issues: Vec<Issue>) -> Result<(), SceneError> {
 }
 
 fn read(grammar: &Grammar, source: &Source) -> Result<Scene, SceneError> {
-    fail_on(grammar.check(&source.root))?;
-    // what fits the schema can be read; this is the net below the schema
-    let read = Scene::deserialize(source.root.to_value());
-    let mut scene = read.map_err(|error| SceneError::from(Issue::value(KeyPath::default(), error.to_string())))?;
+    let mut scene: Scene = source.read(grammar)?;
     scene.check()?;
     scene.fill_in_defaults();
     Ok(scene)

@@ -49,6 +49,18 @@ impl Default for Numerics {
     }
 }
 
+/// How the change of volume enters the energy of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Volumetric {
+    /// Near incompressibility (Poisson's ratio above 0.4) dilatations are projected onto a coarser space, so that nothing locks
+    /// and the pressure does not oscillate; see `asperity check`.
+    #[default]
+    Auto,
+    /// At each quadrature point as it is: locks near incompressibility.
+    Standard,
+}
+
 /// Where the contact conditions hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]

@@ -41,10 +41,14 @@ impl Probe {
     /// # Errors
     /// Everything that is wrong with the file, each with its place.
     pub fn load(file: &Path, info: &LawInfo) -> Result<(Self, Box<dyn FrictionLaw>), SceneError> {
-        let text = std::fs::read_to_string(file).map_err(|error| {
-            let message = format!("cannot read the probe {}: {error}", file.display());
-            SceneError::from(Issue::value(KeyPath::default(), message).allowed("a TOML file in UTF-8"))
-        })?;
+        Self::parse(file, Source::text_of(file, "probe")?, info)
+    }
+
+    /// As [`Probe::load`] with the text at hand; `file` is for messages only.
+    ///
+    /// # Errors
+    /// As [`Probe::load`].
+    pub fn parse(file: &Path, text: String, info: &LawInfo) -> Result<(Self, Box<dyn FrictionLaw>), SceneError> {
         let mut source = Source::parse(file, text)?;
         name_law(&mut source.root, info.name);
         Self::read(&source, info).map_err(|error| source.locate(error))
@@ -56,10 +60,7 @@ impl Probe {
     }
 
     fn read(source: &Source, info: &LawInfo) -> Result<(Self, Box<dyn FrictionLaw>), SceneError> {
-        fail_on(Self::grammar().check(&source.root))?;
-        // what fits the schema can be read; this is the net below the schema
-        let read = Self::deserialize(source.root.to_value());
-        let probe = read.map_err(|error| SceneError::from(Issue::value(KeyPath::default(), error.to_string())))?;
+        let probe: Self = source.read(&Self::grammar())?;
         let key = KeyPath::of("law");
         if let Some(other) = probe.law.get("type").and_then(Value::as_str).filter(|other| *other != info.name) {
             let message = format!("this file is for the law `{other}`, not for `{}`", info.name);

@@ -3,8 +3,9 @@
 use crate::contact::ContactDiscretization;
 use crate::geometry::Point;
 use crate::model::{InterfaceRow, Model, Record, State, interface_rows};
-use crate::output::figures::{Data, choose};
-use crate::output::tables::{HistoryWriter, InterfaceWriter};
+use crate::output::checkpoint::Displacements;
+use crate::output::figures::{Data, choose, film};
+use crate::output::tables::{HistoryWriter, InterfaceWriter, read_history, read_interface};
 use crate::output::vtu::FieldSeries;
 use crate::output::{OutputError, RunFolder, UnitLabels};
 use crate::solve::StepReport;
@@ -28,17 +29,47 @@ pub(super) struct Recorder<'a> {
     records: Vec<Record>,
     rows: Vec<InterfaceRow>,
     displacements: Vec<Vec<Point>>,
+    /// The same on disk, for a run that goes on later.
+    kept: Option<Displacements>,
 }
 
 impl<'a> Recorder<'a> {
-    /// Opens all files; an earlier run in the same folder is replaced.
-    pub fn new(scene: &'a Scene, model: &'a Model, folder: &'a RunFolder) -> Result<Self, OutputError> {
+    /// Opens all files: anew, so that an earlier run in the same folder is replaced, or, `after` some steps, cut back to these
+    /// and read again.
+    pub fn open(scene: &'a Scene, model: &'a Model, folder: &'a RunFolder, after: usize) -> Result<Self, OutputError> {
+        let mut recorder = Self::over(scene, model, folder, (after > 0).then_some(after))?;
+        let path = folder.checkpoint().join("displacements.bin");
+        if after == 0 {
+            recorder.kept = scene.output.figures.then(|| Displacements::create(&path)).transpose()?;
+            recorder.write_fields(0, &State::initial(model))?;
+            return Ok(recorder);
+        }
+        let records = read_history(&folder.history())?;
+        if records.len() != after {
+            let reason = format!("holds {} steps, the checkpoint stands at step {after}", records.len());
+            return Err(OutputError::Content { path: folder.history(), reason });
+        }
+        if scene.output.figures {
+            let kept = (MAX_KEPT / (2 * model.nodes().max(1))).min(after);
+            let (file, displacements) = Displacements::resume(&path, model.nodes(), kept)?;
+            (recorder.records, recorder.rows) = (records, read_interface(&folder.interface())?);
+            (recorder.kept, recorder.displacements) = (Some(file), displacements);
+        }
+        Ok(recorder)
+    }
+
+    fn over(
+        scene: &'a Scene,
+        model: &'a Model,
+        folder: &'a RunFolder,
+        after: Option<usize>,
+    ) -> Result<Self, OutputError> {
         let columns = Columns::new(model);
-        let (history, interface) = folder.tables(&columns.names(), None)?;
+        let (history, interface) = folder.tables(&columns.names(), after)?;
         folder.write_readme(&scene.title, &labels(&scene.units), &columns.0)?;
         let fields = match scene.output.fields {
             0 => None,
-            _ => Some(folder.fields(None)?),
+            _ => Some(folder.fields(after)?),
         };
         Ok(Self {
             model,
@@ -51,12 +82,8 @@ impl<'a> Recorder<'a> {
             records: vec![],
             rows: vec![],
             displacements: vec![],
+            kept: None,
         })
-    }
-
-    /// Writes the fields of the undeformed state.
-    pub fn start(&mut self, state: &State) -> Result<(), OutputError> {
-        self.write_fields(0, state)
     }
 
     /// Takes one nominal step.
@@ -76,11 +103,19 @@ impl<'a> Recorder<'a> {
         }
         if self.output.figures {
             self.records.push(report.record.clone());
-            if 2 * (self.records.len() + 1) * self.model.nodes() <= MAX_KEPT {
+            if 2 * self.records.len() * self.model.nodes() <= MAX_KEPT {
+                self.kept.iter_mut().try_for_each(|kept| kept.append(&report.state.u))?;
                 self.displacements.push(report.state.u.clone());
             }
         }
         Ok(())
+    }
+
+    /// Waits until all steps so far are on the disk itself.
+    pub fn sync(&self) -> Result<(), OutputError> {
+        self.history.sync()?;
+        self.interface.sync()?;
+        self.kept.iter().try_for_each(Displacements::sync)
     }
 
     fn write_fields(&mut self, step: usize, state: &State) -> Result<(), OutputError> {
@@ -111,6 +146,9 @@ impl<'a> Recorder<'a> {
         if frames.len() == instants.len() {
             data.write_bodies(&target, &frames)?;
         }
+        let film = film(&self.records).into_iter().filter_map(|k| Some((k, self.displacements.get(k)?)));
+        let film: Vec<_> = film.map(|(k, u)| data.brief_frame(k, &fields::bodies(self.model, u))).collect();
+        data.write_animation(&target, &film)?;
         Ok(())
     }
 }

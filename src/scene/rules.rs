@@ -6,6 +6,7 @@ use asperity_laws::LawError;
 
 use super::issue::{Issue, KeyPath};
 use super::motion::{Course, DriveSpec, Motion, SupportSpec};
+use super::numerics::Volumetric;
 use super::spec::{BodySpec, ContactSpec, Scene};
 use crate::geometry::Edge;
 
@@ -67,6 +68,9 @@ fn material_of(scene: &Scene, body: &BodySpec, key: &KeyPath, issues: &mut Vec<I
             issues.push(issue.help("remove the key, or remove `rigid = true`"));
         }
         _ => {}
+    }
+    if body.rigid && body.volumetric != Volumetric::Auto {
+        issues.push(Issue::key(key.at("volumetric"), "a rigid body has no `volumetric`").help("remove the key"));
     }
 }
 

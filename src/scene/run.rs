@@ -2,22 +2,28 @@
 
 use std::cell::RefCell;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::contact::ContactDiscretization;
 use crate::math::Counters;
-use crate::model::{Model, Pair, Record, State};
+use crate::model::{Body, Model, Pair, Record};
 use crate::output::tables::CertifyRow;
-use crate::output::{OutputError, RunFolder};
-use crate::solve::{Control, Outcome, Status, Tools, accompanied};
+use crate::output::{OutputError, RunFolder, checkpoint};
+use crate::solve::{Control, Outcome, Status, Tools, proceed};
 use crate::verify::conic::{Companion, Stage};
-use crate::verify::{Audit, Expectations, Finding, step_warnings};
+use crate::verify::{Finding, step_warnings};
 
 use super::certify::{self, Certifier};
+use super::checkpoint::Checkpoint;
+use super::describe::{left_out, modelled};
 use super::recorder::Recorder;
 use super::spec::Scene;
+
+/// Time between two waits for the disk itself. A killed program loses no step that was reached, whatever this is; a power failure
+/// loses those since. Waiting after every step would cost more than a step of a small scene.
+const SYNC_EVERY: Duration = Duration::from_secs(1);
 
 /// How a run went.
 #[derive(Debug)]
@@ -50,40 +56,65 @@ pub fn run(
     model: &Model,
     folder: &RunFolder,
     interrupt: &AtomicBool,
+    watch: impl FnMut(&Record),
+) -> Result<RunReport, OutputError> {
+    resume(scene, model, folder, Checkpoint::start(scene, model), interrupt, watch)
+}
+
+/// Goes on from a checkpoint of this scene in `folder`: in the end all files are those of a run in one go, bit for bit, wall
+/// times apart. A new checkpoint is written after every nominal step.
+///
+/// # Errors
+/// As [`run`].
+pub fn resume(
+    scene: &Scene,
+    model: &Model,
+    folder: &RunFolder,
+    mut at: Checkpoint,
+    interrupt: &AtomicBool,
     mut watch: impl FnMut(&Record),
 ) -> Result<RunReport, OutputError> {
-    let clock = Instant::now();
+    let (clock, before) = (Instant::now(), at.wall_s());
+    let wall_s = || before + clock.elapsed().as_secs_f64();
     let plan = time_plan(scene);
     let mut warnings = step_warnings(model, &plan);
+    folder.tidy()?;
+    checkpoint::create_folder(&folder.checkpoint())?;
+    at.write(folder, false, true)?;
     folder.write_run(&summary(scene, model, &warnings, json!({ "status": "running" })))?;
-    let mut recorder = Recorder::new(scene, model, folder)?;
-    let state = State::initial(model);
-    recorder.start(&state)?;
-    let mut audit = Audit::new(Expectations::of(model));
-    let mut reached = 0;
+    let mut recorder = Recorder::open(scene, model, folder, at.step())?;
     let mut solver = scene.solution.solver.create();
-    let mut certifier = Certifier::new(scene, folder)?;
+    solver.recall(at.solver.clone());
+    let mut certifier = Certifier::new(scene, folder, at.step())?;
     let fresh = RefCell::default();
     let mut companion =
         Companion { certified: scene.solution.certify.then_some(&fresh), interrupt, stage: Stage::default() };
     let tools = Tools { solver: solver.as_mut(), witness: &mut companion };
-    let outcome = accompanied(model, state, &plan, tools, interrupt, |report| {
+    let mut synced = Instant::now();
+    let outcome = proceed(model, at.outcome.clone(), &plan, tools, interrupt, |report| {
         recorder.step(&report)?;
         certifier.take(report.record.step, fresh.take())?;
-        audit.take(&report.record);
-        reached = report.record.step;
+        at.take(&report, wall_s());
+        let sync = synced.elapsed() >= SYNC_EVERY;
+        if sync {
+            recorder.sync()?;
+            synced = Instant::now();
+        }
+        at.write(folder, false, sync)?;
         watch(&report.record);
         Ok::<(), OutputError>(())
     })?;
-    certifier.take(reached + 1, fresh.take())?;
+    certifier.take(at.step() + 1, fresh.take())?;
     recorder.finish(scene)?;
+    recorder.sync()?;
     certifier.draw(scene)?;
-    let mut findings = audit.findings();
+    let mut findings = at.findings();
     findings.extend(certifier.findings());
     let report = RunReport { outcome, findings, certified: certifier.rows };
     warnings.extend(report.findings.iter().filter(|finding| finding.warns()).map(Finding::to_string));
-    let result = conclusion(&report, &solver.counters(), reached, clock.elapsed().as_secs_f64());
+    let result = conclusion(&report, &solver.counters(), at.step(), wall_s());
     folder.write_run(&summary(scene, model, &warnings, result))?;
+    at.write(folder, report.outcome.status == Status::Done, true)?;
     Ok(report)
 }
 
@@ -96,7 +127,8 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "counters": {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": solver.factorisations,
-            "lagged_steps": outcome.lagged, "rescued_steps": outcome.rescued, "analyses": solver.analyses, "dense_rows": solver.dense_rows,
+            "lagged_steps": outcome.lagged, "rescued_steps": outcome.rescued, "snaps": outcome.snaps,
+            "analyses": solver.analyses, "dense_rows": solver.dense_rows,
         },
         "sparse_lu_instead": {
             "indefinite": solver.indefinite, "coupled": solver.coupled, "inaccurate": solver.inaccurate,
@@ -131,6 +163,8 @@ fn summary(scene: &Scene, model: &Model, warnings: &[String], result: Value) -> 
         "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
         "scene": scene,
         "model": sizes(model),
+        "modelled": modelled(scene, model),
+        "left_out": left_out(scene, model),
         "warnings": warnings,
         "result": result,
     })
@@ -146,8 +180,13 @@ pub fn sizes(model: &Model) -> Value {
         "contact_unknowns": model.boundary.len(),
         "stress_scale": model.modulus,
         "element_size": model.element_size,
+        "volumetric": model.bodies.iter().filter_map(volumetric).collect::<Map<_, _>>(),
         "pairs": model.pairs.iter().map(pair).collect::<Vec<_>>(),
     })
+}
+
+fn volumetric(body: &Body) -> Option<(String, Value)> {
+    Some((body.name.clone(), body.volumetric()?.into()))
 }
 
 fn pair(pair: &Pair) -> Value {

@@ -4,11 +4,12 @@
 //! needs quotes: `--set 'contact.0.law.friction=0.1'`, `--set 'title="steep"'`.
 
 use serde_json::Value as Schema;
+use toml::Value;
 use toml::de::DeTable;
 
 use super::grammar::{Grammar, Step};
 use super::issue::{Issue, KeyPath, Place, SceneError};
-use super::source::{Source, set_argument};
+use super::source::Source;
 use super::tree::{Item, Node, Origin};
 
 impl Source {
@@ -18,14 +19,38 @@ impl Source {
     /// The argument is not `PATH=VALUE`, or the scene has no such key; the message lists the keys known at that level.
     pub fn set(&mut self, grammar: &Grammar, argument: &str) -> Result<(), SceneError> {
         let index = self.sets.len();
-        self.sets.push(argument.to_string());
-        let result = parse(argument, index).and_then(|(path, value)| {
-            let slot = slot(&mut self.root, grammar, &path, index)?;
-            *slot = value;
-            Ok(())
-        });
-        let place = Some(Box::new(Place::Argument(set_argument(argument))));
-        result.map_err(|issue| SceneError::from(Issue { place, ..issue }))
+        self.sets.push(format!("--set '{argument}'"));
+        let result = parse(argument, index).and_then(|(path, value)| self.replace(grammar, &path, value));
+        result.map_err(|issue| self.blamed_on_last(issue))
+    }
+
+    /// Replaces the value at `path`; `origin` stands in messages for the place where the new one was written.
+    ///
+    /// # Errors
+    /// The scene has no such key.
+    pub fn put(&mut self, grammar: &Grammar, path: &KeyPath, value: &Value, origin: &str) -> Result<(), SceneError> {
+        let index = self.sets.len();
+        self.sets.push(origin.to_string());
+        let result = self.replace(grammar, path, Node::of(value, index));
+        result.map_err(|issue| self.blamed_on_last(issue))
+    }
+
+    fn replace(&mut self, grammar: &Grammar, path: &KeyPath, value: Node) -> Result<(), Issue> {
+        *slot(&mut self.root, grammar, path, self.sets.len() - 1)? = value;
+        Ok(())
+    }
+
+    fn blamed_on_last(&self, issue: Issue) -> SceneError {
+        let place = self.sets.last().map(|origin| Box::new(Place::Argument(origin.clone())));
+        Issue { place, ..issue }.into()
+    }
+}
+
+impl KeyPath {
+    /// A dotted key of TOML, e.g. `contact.0.law.friction`; `None` for any other text.
+    pub fn parse(text: &str) -> Option<Self> {
+        let document = format!("{text}=0");
+        DeTable::parse(&document).ok().and_then(|keys| chain(keys.get_ref()))
     }
 }
 
@@ -33,9 +58,7 @@ impl Source {
 fn parse(argument: &str, index: usize) -> Result<(KeyPath, Node), Issue> {
     let wrong = |message: &str| Issue::value(KeyPath::default(), message).allowed("PATH=VALUE, e.g. time.steps=152");
     let (path, value) = argument.split_once('=').ok_or_else(|| wrong("no `=` in the argument of --set"))?;
-    let text = format!("{path}=0");
-    let keys = DeTable::parse(&text).map_err(|_| wrong(&format!("{path:?} is not a dotted key")))?;
-    let path = chain(keys.get_ref()).ok_or_else(|| wrong(&format!("{path:?} is not a dotted key")))?;
+    let path = KeyPath::parse(path).ok_or_else(|| wrong(&format!("{path:?} is not a dotted key")))?;
 
     let text = format!("value={value}");
     let parsed = DeTable::parse(&text).map_err(|error| {

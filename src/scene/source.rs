@@ -3,8 +3,11 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
+use super::fail_on;
+use super::grammar::Grammar;
 use super::issue::{Focus, Issue, KeyPath, Place, SceneError};
 use super::tree::{Node, Origin};
 
@@ -16,6 +19,7 @@ const MAX_SYNTAX_ERRORS: usize = 5;
 pub struct Source {
     file: PathBuf,
     text: String,
+    /// Where values came from that replaced those of the file, as shown in messages.
     pub(super) sets: Vec<String>,
     pub(super) root: Node,
 }
@@ -39,6 +43,27 @@ impl Source {
             SceneError::from(Issue { place, ..Issue::value(key, bad.message) })
         })?;
         Ok(source)
+    }
+
+    /// The text of a file; `kind` says in messages what it was taken for.
+    ///
+    /// # Errors
+    /// The path and the reason.
+    pub fn text_of(file: &Path, kind: &str) -> Result<String, SceneError> {
+        std::fs::read_to_string(file).map_err(|error| {
+            let message = format!("cannot read the {kind} {}: {error}", file.display());
+            Issue::value(KeyPath::default(), message).allowed("a TOML file in UTF-8").into()
+        })
+    }
+
+    /// Reads the document as what its grammar describes. Issues have keys; [`Source::locate`] gives them lines.
+    ///
+    /// # Errors
+    /// Everything that does not fit the grammar.
+    pub fn read<T: DeserializeOwned>(&self, grammar: &Grammar) -> Result<T, SceneError> {
+        fail_on(grammar.check(&self.root))?;
+        // what fits the schema can be read; this is the net below the schema
+        T::deserialize(self.root.to_value()).map_err(|error| Issue::value(KeyPath::default(), error.to_string()).into())
     }
 
     fn syntax(&self, error: &toml::de::Error) -> Issue {
@@ -80,7 +105,7 @@ impl Source {
     fn place(&self, origin: &Origin) -> Place {
         match origin {
             Origin::File(span) => self.line_of(span),
-            Origin::Set(k) => Place::Argument(self.sets.get(*k).map_or_else(String::new, |arg| set_argument(arg))),
+            Origin::Set(k) => Place::Argument(self.sets.get(*k).cloned().unwrap_or_default()),
         }
     }
 
@@ -97,9 +122,4 @@ impl Source {
             width: self.text[start..end.clamp(start, line_end)].trim_end().chars().count().max(1),
         }
     }
-}
-
-/// The argument as the user typed it.
-pub(super) fn set_argument(argument: &str) -> String {
-    format!("--set '{argument}'")
 }

@@ -9,7 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use super::motion::{DriveSpec, SupportSpec};
-use super::numerics::{Numerics, Solution};
+use super::numerics::{Numerics, Solution, Volumetric};
 use crate::geometry::{BasisSpec, Edge, Grading, ShapeSpec};
 
 /// A whole analysis: bodies, how they are held and moved, their contacts, and how time passes.
@@ -101,6 +101,9 @@ pub struct BodySpec {
     /// Shape functions.
     #[serde(default = "quadratic")]
     pub basis: BasisSpec,
+    /// How the change of volume enters the energy; matters above a Poisson's ratio of 0.4.
+    #[serde(default)]
+    pub volumetric: Volumetric,
     /// Number of elements along x and y; of a rigid body only that along its contact edge matters.
     #[schemars(schema_with = "element_counts")]
     pub elements: [usize; 2],

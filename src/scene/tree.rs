@@ -13,7 +13,7 @@ use toml::{Spanned, Value};
 pub(super) enum Origin {
     /// Bytes of the file.
     File(Range<usize>),
-    /// The n-th `--set` argument.
+    /// The n-th replacement: a `--set` argument, or a value that a study puts in.
     Set(usize),
 }
 
@@ -58,6 +58,16 @@ impl Node {
     /// An empty table that was called for by the n-th `--set` argument.
     pub fn empty_table(set: usize) -> Self {
         Self { key_at: Origin::Set(set), at: Origin::Set(set), item: Item::Table(BTreeMap::new()) }
+    }
+
+    /// A plain value that came from the n-th replacement.
+    pub fn of(value: &Value, set: usize) -> Self {
+        let item = match value {
+            Value::Table(map) => Item::Table(map.iter().map(|(key, v)| (key.clone(), Self::of(v, set))).collect()),
+            Value::Array(values) => Item::Array(values.iter().map(|v| Self::of(v, set)).collect()),
+            leaf => Item::Leaf(leaf.clone()),
+        };
+        Self { key_at: Origin::Set(set), at: Origin::Set(set), item }
     }
 
     /// The tree below a parsed document or table.

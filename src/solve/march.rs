@@ -4,19 +4,28 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::math::LinearSolver;
-use crate::model::{Control as MotionControl, Evaluation, Model, Motion, Record, State, record, suggested_step};
+use crate::model::{
+    Control as MotionControl, Drag, Evaluation, Model, Motion, Record, State, Tangent, evaluate, record, suggested_step,
+};
 
 use super::Strategy;
-use super::newton::{NewtonReport, Step, StepFailure, solve_step};
+use super::crossing::cross;
+use super::newton::{NewtonReport, Step, StepFailure, solve_dragged, solve_step};
 use super::status::{Outcome, Status};
 use super::witness::{Effort, Witness};
 
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
 
+/// A step that must be halved more often for its drive to be followed is a slip of the pen.
+const MOST_HALVINGS: usize = 12;
+
 /// Iterations above which the next step is half as long: an easy step takes about four, so two of half the length cost no
 /// more then (measured in `papers/cost`).
 const HARD: usize = 8;
+
+/// Cuts without a step between them after which the equilibrium path is taken to end.
+const LOST: usize = 2;
 
 /// Time plan of an analysis.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +48,10 @@ pub struct StepReport<'a> {
     pub evaluation: &'a Evaluation,
     /// Its row of the history.
     pub record: Record,
+    /// Where the march stands: what [`proceed`] goes on from.
+    pub outcome: &'a Outcome,
+    /// Its solver.
+    pub solver: &'a dyn LinearSolver,
 }
 
 /// Advances `start` through the nominal steps that lie after it and reports each. What `report` returns as an error
@@ -54,7 +67,7 @@ pub fn march<E>(
     interrupt: &AtomicBool,
     report: impl FnMut(StepReport) -> Result<(), E>,
 ) -> Result<Outcome, E> {
-    accompanied(model, start, control, Tools { solver, witness: &mut () }, interrupt, report)
+    proceed(model, Outcome::at(start), control, Tools { solver, witness: &mut () }, interrupt, report)
 }
 
 /// What a march works with.
@@ -65,20 +78,21 @@ pub struct Tools<'a> {
     pub witness: &'a mut dyn Witness,
 }
 
-/// [`march`] with a companion.
+/// Goes on from the end of a nominal step, bit for bit like the march that reported it; the solver must recall what that of
+/// the other march remembered there.
 ///
 /// # Errors
 /// As [`march`].
-pub fn accompanied<E>(
+pub fn proceed<E>(
     model: &Model,
-    start: State,
+    from: Outcome,
     control: &Control,
     tools: Tools,
     interrupt: &AtomicBool,
     mut report: impl FnMut(StepReport) -> Result<(), E>,
 ) -> Result<Outcome, E> {
     let nominal = control.end / control.steps as f64;
-    let first = (start.time / nominal).round() as usize;
+    let first = (from.state.time / nominal).round() as usize;
     let smallest = nominal * 0.5_f64.powi(control.max_cuts as i32);
     let mut march = March {
         model,
@@ -87,14 +101,14 @@ pub fn accompanied<E>(
         interrupt,
         nominal,
         smallest,
-        dt: nominal,
-        law: f64::INFINITY,
-        outcome: Outcome::at(start),
+        failures: 0,
+        drag: None,
+        outcome: Outcome { status: Status::Done, ..from },
     };
     for step in first + 1..=control.steps {
         let clock = Instant::now();
         let target = if step == control.steps { control.end } else { step as f64 * nominal };
-        let before = (march.outcome.iterations, march.outcome.cuts);
+        let before = (march.outcome.iterations, march.outcome.cuts, march.outcome.snaps);
         match march.reach(target) {
             Ok(found) => {
                 let outcome = &march.outcome;
@@ -102,11 +116,13 @@ pub fn accompanied<E>(
                     step,
                     newton_iterations: outcome.iterations - before.0,
                     cuts: outcome.cuts - before.1,
+                    snaps: outcome.snaps - before.2,
                     wall_s: clock.elapsed().as_secs_f64(),
                     weakening: found.weakening,
                     ..record(model, &outcome.state, &found.evaluation)
                 };
-                report(StepReport { state: &outcome.state, evaluation: &found.evaluation, record })?;
+                let (state, evaluation, solver) = (&outcome.state, &found.evaluation, &*march.tools.solver);
+                report(StepReport { state, evaluation, record, outcome, solver })?;
             }
             Err(status) => {
                 march.outcome.status = status;
@@ -117,8 +133,9 @@ pub fn accompanied<E>(
     Ok(march.outcome)
 }
 
-/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`.
-fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
+/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`; `None` where a drive outruns that by
+/// more than [`MOST_HALVINGS`].
+fn within_stride(model: &Model, time: f64, wanted: f64) -> Option<f64> {
     let travel = |until: f64| {
         let of = |motion: &Motion| match &motion.control {
             MotionControl::Displacement(table) => (table.at(until) - table.at(time)).abs(),
@@ -126,10 +143,8 @@ fn within_stride(model: &Model, time: f64, mut wanted: f64) -> f64 {
         };
         model.motions.iter().map(of).fold(0.0, f64::max)
     };
-    while travel(wanted) > model.stride {
-        wanted = time + 0.5 * (wanted - time);
-    }
-    wanted
+    let mut halved = std::iter::successors(Some(wanted), |until| Some(time + 0.5 * (until - time)));
+    halved.by_ref().take(MOST_HALVINGS).find(|until| travel(*until) <= model.stride)
 }
 
 /// A march under way.
@@ -140,10 +155,10 @@ struct March<'a, 't> {
     interrupt: &'a AtomicBool,
     nominal: f64,
     smallest: f64,
-    /// Step to be tried next; remembered from one nominal step to the next.
-    dt: f64,
-    /// Longest step that the law accepted last.
-    law: f64,
+    /// Cuts since the last step.
+    failures: usize,
+    /// Made when it is needed first.
+    drag: Option<Drag>,
     outcome: Outcome,
 }
 
@@ -165,10 +180,15 @@ impl March<'_, '_> {
             }
             // A remainder below half a sub-step joins the last one.
             let left = target - time;
-            let wanted = if left <= 1.5 * self.dt { left } else { self.dt };
-            let pieces = (wanted / self.law * VETO).ceil().max(1.0);
+            let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
+            let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
-            let next = within_stride(self.model, time, wanted);
+            let Some(next) = within_stride(self.model, time, wanted) else {
+                let stride = self.model.stride;
+                let reason =
+                    format!("a driven edge moves so fast that steps of {stride:.1e} cannot follow it: take more steps");
+                return Err(Status::NotConverged { time, reason });
+            };
             match self.step(next) {
                 Ok(done) => {
                     weakening = weakening.max(done.weakening);
@@ -179,11 +199,15 @@ impl March<'_, '_> {
                 Err(StepFailure::Interrupted) => return Err(Status::Interrupted { time }),
                 Err(failure) => {
                     self.outcome.cuts += 1;
-                    match failure {
-                        StepFailure::Vetoed { step, .. } => self.law = step,
-                        _ => self.dt = 0.5 * (next - time),
+                    self.failures += 1;
+                    if self.failures == LOST && failure.lost() && self.cross(next) {
+                        continue;
                     }
-                    if self.dt.min(self.law) < self.smallest {
+                    match failure {
+                        StepFailure::Vetoed { step, .. } => self.outcome.law = step,
+                        _ => self.outcome.dt = 0.5 * (next - time),
+                    }
+                    if self.outcome.dt.min(self.outcome.law) < self.smallest {
                         return Err(Status::NotConverged { time, reason: failure.to_string() });
                     }
                 }
@@ -209,9 +233,10 @@ impl March<'_, '_> {
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
         self.outcome.rescued += usize::from(rescued);
-        let hard = done.iterations > HARD;
-        self.dt = if hard { (0.5 * dt).max(self.smallest) } else { (2.0 * self.dt).min(self.nominal) };
-        self.law = law;
+        let (hard, double) = (done.iterations > HARD, 2.0 * self.outcome.dt);
+        self.outcome.dt = if hard { (0.5 * dt).max(self.smallest) } else { double.min(self.nominal) };
+        self.outcome.law = law;
+        self.failures = 0;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
     }
@@ -219,13 +244,43 @@ impl March<'_, '_> {
     /// Asks the companion for another way to a step that failed.
     fn rescue(&mut self, next: f64, failure: StepFailure) -> Result<NewtonReport, StepFailure> {
         let Outcome { state: start, iterations, .. } = &mut self.outcome;
-        let lost =
-            matches!(failure, StepFailure::Iterations { .. } | StepFailure::Inverted(_) | StepFailure::Linear(_));
+        let lost = failure.lost();
         let guess = lost.then(|| self.tools.witness.rescue(self.model, start, next, self.interrupt)).flatten();
         let Some(guess) = guess else { return Err(failure) };
         let (model, strategy, interrupt) = (self.model, self.strategy, self.interrupt);
-        let mut step =
-            Step { model, start, strategy, solver: self.tools.solver, interrupt, iterations, weakens: false };
+        let mut step = Step {
+            model,
+            start,
+            strategy,
+            solver: self.tools.solver,
+            interrupt,
+            iterations,
+            weakens: false,
+            drag: None,
+        };
         step.attempt(guess).map_err(|_| failure)
+    }
+
+    /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach.
+    fn cross(&mut self, until: f64) -> bool {
+        let (model, start, interrupt) = (self.model, &self.outcome.state, self.interrupt);
+        let drag = self.drag.get_or_insert_with(|| Drag::new(model));
+        let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);
+        let solve = |from: &State, time, strength| {
+            solve_dragged(model, from, time, (drag, strength), solver, interrupt, iterations)
+        };
+        let (Some(before), Ok(done)) =
+            (evaluate(model, start, start, Tangent::None), cross(model, drag, start, until, solve))
+        else {
+            return false;
+        };
+        let supplied = done.state.ledger.external_work - start.ledger.external_work;
+        let used = done.state.ledger.dissipated - start.ledger.dissipated;
+        let loss = supplied - used - (done.evaluation.strain_energy - before.strain_energy);
+        self.outcome.state = done.state;
+        self.outcome.state.ledger.snap_loss += loss;
+        self.outcome.snaps += 1;
+        self.failures = 0;
+        true
     }
 }

@@ -1,5 +1,7 @@
 //! Solving: Newton for one step, and the march through time that cuts and regrows steps.
 
+mod convergence;
+mod crossing;
 mod floating;
 mod interface_loop;
 mod march;
@@ -10,7 +12,7 @@ pub mod weakening;
 mod witness;
 
 pub use interface_loop::Strategy;
-pub use march::{Control, StepReport, Tools, accompanied, march};
+pub use march::{Control, StepReport, Tools, march, proceed};
 pub use newton::{NewtonReport, StepFailure, solve_step};
 pub use predictor::predict;
 pub use status::{Outcome, Status};

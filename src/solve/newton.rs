@@ -3,20 +3,14 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::math::{LinearSolver, SolveError};
-use crate::model::{Evaluation, Linearised, Model, State, Tangent, evaluate, explain};
+use crate::model::{Drag, Evaluation, Linearised, Model, State, Tangent, evaluate, explain};
 
+use super::convergence::{balanced, forecast, largest, stalled, tolerance};
 use super::floating::{hint, support_floating};
 use super::interface_loop::{Strategy, negative, settle};
-use super::predictor::{guesses, trend};
+use super::predictor::{guesses, predict, trend};
 use super::weakening::{self, Linearisation};
 
-/// Accepted residual relative to the largest nodal force.
-const RELATIVE: f64 = 1e-9;
-/// Accepted residual relative to `E` times the size of the model: round-off of a translated body.
-const ROUND_OFF: f64 = 1e-14;
-
-/// Iterations without a residual below half of the best before, after which the next guess is tried.
-const PATIENCE: usize = 5;
 /// Growth of the residual that a full step may show.
 const GROWTH: f64 = 1.0 + 1e-6;
 /// Lengths tried when a full step is no good: 1, 1/2, 1/4, ...
@@ -56,9 +50,19 @@ pub enum StepFailure {
         /// Longest step that the law accepts.
         step: f64,
     },
+    /// A motion under drag that found no equilibrium, see `solve::crossing`.
+    #[error("moved on under drag the bodies do not come to rest")]
+    Restless,
     /// Stopped from outside.
     #[error("interrupted")]
     Interrupted,
+}
+
+impl StepFailure {
+    /// True where Newton's method found no equilibrium.
+    pub fn lost(&self) -> bool {
+        matches!(self, Self::Iterations { .. } | Self::Inverted(_) | Self::Linear(_))
+    }
 }
 
 /// A converged step.
@@ -94,7 +98,7 @@ pub fn solve_step(
     interrupt: &AtomicBool,
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
-    let mut step = Step { model, start, strategy, solver, interrupt, iterations, weakens: false };
+    let mut step = Step { model, start, strategy, solver, interrupt, iterations, weakens: false, drag: None };
     let mut failure = None;
     let mut guesses = guesses(model, start, time, |found| balanced(model, found));
     if guesses.first().is_some_and(|(_, forces)| balanced(model, forces)) {
@@ -115,6 +119,24 @@ pub fn solve_step(
     Err(failure.unwrap_or(StepFailure::Inverted(0)))
 }
 
+/// Solves the step from `start` to `time` against drag of the given strength.
+///
+/// # Errors
+/// As [`solve_step`].
+pub fn solve_dragged(
+    model: &Model,
+    start: &State,
+    time: f64,
+    drag: (&Drag, f64),
+    solver: &mut dyn LinearSolver,
+    interrupt: &AtomicBool,
+    iterations: &mut usize,
+) -> Result<NewtonReport, StepFailure> {
+    let strategy = Strategy::Monolithic;
+    let mut step = Step { model, start, strategy, solver, interrupt, iterations, weakens: false, drag: Some(drag) };
+    step.attempt(predict(model, start, time))
+}
+
 /// A step being solved.
 pub(super) struct Step<'a> {
     pub model: &'a Model,
@@ -125,6 +147,8 @@ pub(super) struct Step<'a> {
     pub iterations: &'a mut usize,
     /// Whether friction fell with the slip rate at some iterate.
     pub weakens: bool,
+    /// Drag with its strength.
+    pub drag: Option<(&'a Drag, f64)>,
 }
 
 impl Step<'_> {
@@ -145,7 +169,7 @@ impl Step<'_> {
 
     fn newton(&mut self, mut trial: State, mut way: Linearisation) -> Result<NewtonReport, StepFailure> {
         let model = self.model;
-        let mut evaluation = evaluate(model, self.start, &trial, way.tangent).ok_or(StepFailure::Inverted(0))?;
+        let mut evaluation = self.evaluate(&trial, way.tangent).ok_or(StepFailure::Inverted(0))?;
         let mut residuals = Vec::new();
         loop {
             let iteration = residuals.len();
@@ -176,6 +200,14 @@ impl Step<'_> {
                 .update(&trial, &increment, (evaluation.norm(), last), way.tangent)
                 .ok_or(StepFailure::Inverted(iteration + 1))?;
         }
+    }
+
+    fn evaluate(&self, trial: &State, tangent: Tangent) -> Option<Evaluation> {
+        let mut found = evaluate(self.model, self.start, trial, tangent)?;
+        if let Some((drag, strength)) = self.drag {
+            drag.add(strength, self.model, self.start, trial, &mut found);
+        }
+        Some(found)
     }
 
     /// The Newton increment; takes the system out of the evaluation.
@@ -213,12 +245,11 @@ impl Step<'_> {
             next.advance(self.model, increment, factor);
             next
         };
-        let evaluate = |trial: &State, tangent| evaluate(self.model, self.start, trial, tangent);
         let full = moved(1.0);
-        if last && let Some(found) = evaluate(&full, Tangent::None).filter(|found| balanced(self.model, found)) {
+        if last && let Some(found) = self.evaluate(&full, Tangent::None).filter(|found| balanced(self.model, found)) {
             return Some((full, found));
         }
-        let found = evaluate(&full, tangent);
+        let found = self.evaluate(&full, tangent);
         let mut best = found.as_ref().map(|found| (found.norm(), 1.0));
         let accepted = |size: f64| tangent == Tangent::Lagged || size <= GROWTH * before;
         if best.is_some_and(|(size, _)| accepted(size)) {
@@ -226,7 +257,7 @@ impl Step<'_> {
         }
         for k in 1..HALVINGS {
             let factor = 0.5_f64.powi(k);
-            if let Some(size) = evaluate(&moved(factor), Tangent::None).as_ref().map(Evaluation::norm) {
+            if let Some(size) = self.evaluate(&moved(factor), Tangent::None).as_ref().map(Evaluation::norm) {
                 if best.is_none_or(|(smallest, _)| size < smallest) {
                     best = Some((size, factor));
                 }
@@ -240,7 +271,7 @@ impl Step<'_> {
             return Some((full, found?));
         }
         let next = moved(factor);
-        evaluate(&next, tangent).map(|evaluation| (next, evaluation))
+        self.evaluate(&next, tangent).map(|evaluation| (next, evaluation))
     }
 
     /// The trial state as the new committed one: internal variables, forces and work.
@@ -265,34 +296,4 @@ impl Step<'_> {
             None => String::new(),
         }
     }
-}
-
-/// True where the best residual is [`PATIENCE`] iterations old: the active set cycles.
-fn stalled(residuals: &[f64]) -> bool {
-    let (old, new) = residuals.split_at(residuals.len().saturating_sub(PATIENCE));
-    let best = |part: &[f64]| part.iter().fold(f64::INFINITY, |m, v| m.min(*v));
-    !old.is_empty() && best(new) > 0.5 * best(old)
-}
-
-/// The next residual, should the convergence be quadratic.
-fn forecast(residuals: &[f64]) -> f64 {
-    match residuals {
-        [.., before, last] => last * (last / before).powi(2),
-        _ => f64::INFINITY,
-    }
-}
-
-/// True where the residual is as small as is asked for.
-fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
-    largest(&evaluation.residual) <= tolerance(model, evaluation)
-}
-
-/// The residual asked for.
-fn tolerance(model: &Model, evaluation: &Evaluation) -> f64 {
-    RELATIVE * evaluation.force_scale + ROUND_OFF * model.modulus * model.size()
-}
-
-/// Largest magnitude; `NaN` if there is one.
-fn largest(residual: &[f64]) -> f64 {
-    residual.iter().fold(0.0_f64, |m, v| if v.is_nan() || m.is_nan() { f64::NAN } else { m.max(v.abs()) })
 }

@@ -1,9 +1,11 @@
 //! How an analysis ended, apart from errors in its input.
 
+use serde::{Deserialize, Serialize};
+
 use crate::model::State;
 
 /// How the march ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Status {
     /// The end time was reached.
     Done,
@@ -21,8 +23,8 @@ pub enum Status {
     },
 }
 
-/// End of a march: the last converged state and what it took.
-#[derive(Clone, Debug)]
+/// End of a march, or where it stands: the last converged state, what it took, and what the next step starts from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// How it ended.
     pub status: Status,
@@ -38,11 +40,29 @@ pub struct Outcome {
     pub lagged: usize,
     /// Steps that only the conic method reached, see [`super::Witness`].
     pub rescued: usize,
+    /// Snaps that were crossed, see `solve::crossing`.
+    pub snaps: usize,
+    /// Length of the step to be tried next; remembered from one nominal step to the next.
+    pub dt: f64,
+    /// Longest step that the law accepted last.
+    pub law: f64,
 }
 
 impl Outcome {
     /// Nothing done yet.
     pub fn at(state: State) -> Self {
-        Self { status: Status::Done, state, iterations: 0, steps: 0, cuts: 0, lagged: 0, rescued: 0 }
+        let any = f64::INFINITY;
+        Self {
+            status: Status::Done,
+            state,
+            iterations: 0,
+            steps: 0,
+            cuts: 0,
+            lagged: 0,
+            rescued: 0,
+            snaps: 0,
+            dt: any,
+            law: any,
+        }
     }
 }

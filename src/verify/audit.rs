@@ -25,6 +25,8 @@ pub struct Audit {
     step_error: f64,
     /// Energy that was there without work at the first step: bodies may start overlapping, tables may start displaced.
     initial_energy: Option<f64>,
+    /// Energy set free by snaps.
+    lost: f64,
     interface_force: Worst,
     interface_moment: Worst,
     reaction: Worst,
@@ -35,6 +37,7 @@ pub struct Audit {
     penetration: Worst,
     contact_lost: Worst,
     rate_weakening: Worst,
+    snap: Worst,
 }
 
 /// The record before; at rest and without load in the beginning.
@@ -44,6 +47,7 @@ struct Before {
     drive: [f64; 2],
     dissipated: f64,
     external_work: f64,
+    snap_loss: f64,
     touching: bool,
 }
 
@@ -58,6 +62,7 @@ impl Audit {
             peak_energy: expected.negligible_force * expected.element_size,
             step_error: 0.0,
             initial_energy: None,
+            lost: 0.0,
             interface_force: none,
             interface_moment: none,
             reaction: none,
@@ -68,6 +73,7 @@ impl Audit {
             penetration: none,
             contact_lost: none,
             rate_weakening: none,
+            snap: none,
         }
     }
 
@@ -81,6 +87,7 @@ impl Audit {
             drive: record.drive,
             dissipated: record.dissipated,
             external_work: record.external_work,
+            snap_loss: record.snap_loss,
             touching: record.contact_length > 0.0,
         };
     }
@@ -99,7 +106,11 @@ impl Audit {
     }
 
     fn energies(&mut self, record: &Record) {
-        let (step, held) = (record.step, record.strain_energy + record.dissipated);
+        // A snap can only set energy free.
+        let lost = positive(record.snap_loss - self.before.snap_loss);
+        self.snap.take(record.step, lost);
+        self.lost += lost;
+        let (step, held) = (record.step, record.strain_energy + record.dissipated + self.lost);
         let largest = record.strain_energy.abs().max(record.dissipated.abs()).max(record.external_work.abs());
         self.peak_energy = self.peak_energy.max(largest);
         if self.expected.dissipative {
@@ -124,7 +135,8 @@ impl Audit {
         }
         if self.before.touching {
             let against = record.external_work > self.before.external_work;
-            self.contact_lost.take(step, if !touching && against { norm(self.before.force) } else { 0.0 });
+            let passed = !touching && against && record.snaps == 0;
+            self.contact_lost.take(step, if passed { norm(self.before.force) } else { 0.0 });
         }
     }
 
@@ -142,6 +154,7 @@ impl Audit {
             self.penetration.judge(&PENETRATION, self.expected.element_size),
             self.contact_lost.judge(&CONTACT_LOST, force),
             self.rate_weakening.judge(&RATE_WEAKENING, 1.0),
+            self.snap.judge(&SNAP, energy),
         ]
     }
 }

@@ -84,3 +84,13 @@ pub const RATE_WEAKENING: Criterion = Criterion {
     severity: Warning,
     meaning: "share of the bodies' tangential stiffness that friction takes away by falling with the slip rate; near 1 the               slip jumps, beyond it the quasi-static problem has several solutions, and smaller steps make it worse: drive               slower, take longer steps, or a law with direct effect",
 };
+/// Any snap is worth a word; below this it is an error of the time steps.
+pub const SNAP: Criterion = Criterion {
+    name: "snap",
+    tolerance: 1e-3,
+    severity: Warning,
+    meaning: "energy set free in a step in which the equilibrium path ended and the bodies snapped to another equilibrium, \
+              over the largest energy; the run went on behind it, the column snap_loss tells how much was lost in all. A real \
+              effect of soft, steep asperities; without inertia the equilibrium behind need not be the one that a fast \
+              motion reaches",
+};

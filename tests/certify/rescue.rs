@@ -7,7 +7,7 @@ use std::time::Instant;
 use asperity::contact::Sites;
 use asperity::math::CondensedSolver;
 use asperity::model::State;
-use asperity::solve::{Control, Outcome, Status, Strategy, Tools, Witness, accompanied};
+use asperity::solve::{Control, Outcome, Status, Strategy, Tools, Witness, proceed};
 use asperity::verify::conic::{Companion, Stage};
 
 use super::support::{Pass, pass};
@@ -19,7 +19,7 @@ fn march(setup: &Pass, witness: &mut dyn Witness) -> (Outcome, f64) {
     let (tools, clock) = (Tools { solver: &mut solver, witness }, Instant::now());
     let quiet = AtomicBool::new(false);
     let Ok(outcome) =
-        accompanied(&model, State::initial(&model), &control, tools, &quiet, |_| Ok::<(), Infallible>(()));
+        proceed(&model, Outcome::at(State::initial(&model)), &control, tools, &quiet, |_| Ok::<(), Infallible>(()));
     (outcome, clock.elapsed().as_secs_f64())
 }
 

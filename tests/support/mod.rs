@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use asperity::bulk::{Material, NeoHookean};
+use asperity::bulk::{NeoHookean, VolumeSpace};
 use asperity::contact::{Integration, Projection, Sites};
 use asperity::geometry::shapes::{Block, Cosine};
 use asperity::geometry::{BasisSpec, Edge, Profile, ShapeSpec, build};
@@ -34,6 +34,12 @@ pub struct Pass {
     pub r: f64,
     pub length: f64,
     pub stress: f64,
+    /// Height of the asperities, and how far the tips overlap when one passes the other.
+    pub height: f64,
+    pub overlap: f64,
+    pub poissons_ratio: f64,
+    /// Space of the dilatations; `None` leaves it to the program.
+    pub volume: Option<Option<VolumeSpace>>,
     /// Part of the path: positions of the upper asperity.
     pub from: f64,
     pub to: f64,
@@ -55,6 +61,10 @@ impl Default for Pass {
             r: 1.0,
             length: 1.0,
             stress: 1.0,
+            height: 0.4,
+            overlap: 0.2,
+            poissons_ratio: 0.3,
+            volume: None,
             from: -1.9,
             to: 1.9,
         }
@@ -63,12 +73,16 @@ impl Default for Pass {
 
 fn body(setup: &Pass, up: bool, h: f64) -> BodySpec {
     let l = setup.length;
-    let bump = Cosine { height: 0.4 * l, wavelength: 1.6 * l, centers: Some(vec![0.0]), count: None, spacing: None };
+    let bump =
+        Cosine { height: setup.height * l, wavelength: 1.6 * l, centers: Some(vec![0.0]), count: None, spacing: None };
     let (bump, flat) = (Profile::Cosine(bump), Profile::default());
     let (block, position) = if up {
         (Block { x: [-2.0 * l, 2.0 * l], y: [-l, 0.0], top: bump, bottom: flat }, [0.0, 0.0])
     } else {
-        (Block { x: [-l, l], y: [0.0, l], top: flat, bottom: bump }, [setup.from * l, 0.6 * l])
+        (
+            Block { x: [-l, l], y: [0.0, l], top: flat, bottom: bump },
+            [setup.from * l, (2.0 * setup.height - setup.overlap) * l],
+        )
     };
     let basis = match setup.lagrange {
         true => BasisSpec::Lagrange { degree: setup.degree },
@@ -77,8 +91,8 @@ fn body(setup: &Pass, up: bool, h: f64) -> BodySpec {
     let count = |length: f64| (length / l / h).round() as usize;
     let elements = [count(block.x[1] - block.x[0]), count(l)];
     let patch = build(&ShapeSpec::Block(block), &basis, elements, None, position, Path::new(".")).expect("a block");
-    let material: Arc<dyn Material> = Arc::new(NeoHookean { youngs_modulus: setup.stress, poissons_ratio: 0.3 });
-    BodySpec::Deformable(patch, material)
+    let material = NeoHookean { youngs_modulus: setup.stress, poissons_ratio: setup.poissons_ratio };
+    BodySpec::Deformable(patch, Arc::new(material))
 }
 
 /// The model of a pass.
@@ -95,9 +109,14 @@ pub fn pass(setup: &Pass) -> Model {
     pair.points = setup.points;
     pair.r = Some(setup.r);
     let built = (|| {
-        builder
-            .body("lower", body(setup, true, setup.element))?
-            .body("upper", body(setup, false, 0.93 * setup.element))?;
+        for (name, spec) in
+            [("lower", body(setup, true, setup.element)), ("upper", body(setup, false, 0.93 * setup.element))]
+        {
+            match setup.volume {
+                None => builder.body(name, spec)?,
+                Some(space) => builder.body_in(name, spec, space)?,
+            };
+        }
         builder.motion("lower", Edge::Bottom, 0, hold(), false)?.motion("lower", Edge::Bottom, 1, hold(), false)?;
         builder.motion("upper", Edge::Top, 0, drag, true)?.motion("upper", Edge::Top, 1, hold(), true)?;
         builder.contact(pair);

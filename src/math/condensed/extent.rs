@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::{Pattern, System};
 
 /// Chooses the boundary of the condensation. All unknowns that may come into contact are the boundary where the dense LU
@@ -14,10 +16,17 @@ pub(super) struct Extent {
     possible: Arc<[usize]>,
     /// Place of each unknown in `possible`.
     places: Vec<Option<usize>>,
-    /// Whether all of them are kept for good.
-    whole: bool,
-    kept: Vec<bool>,
     touched: Vec<bool>,
+    choice: Choice,
+}
+
+/// What is kept, and what the next choice is made from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    /// Whether all possible contact unknowns are kept for good.
+    whole: bool,
+    /// Those that are kept.
+    kept: Vec<bool>,
     /// Neighbours kept on either side of an unknown in contact.
     margin: usize,
     /// Solutions since the last choice.
@@ -35,8 +44,24 @@ impl Extent {
         possible.iter().enumerate().for_each(|(k, &e)| places[e] = Some(k));
         let n = possible.len();
         let whole = dense_lu(n + system.n - pattern.n) <= interior;
-        let (kept, touched) = (vec![true; n], vec![false; n]);
-        Self { pattern, possible, places, whole, kept, touched, margin: 1, lasted: 0.0, waste: f64::INFINITY }
+        let choice = Choice { whole, kept: vec![true; n], margin: 1, lasted: 0.0, waste: f64::INFINITY };
+        Self { pattern, possible, places, touched: vec![false; n], choice }
+    }
+
+    /// The same with a choice that was made before for the same system; `None` where it is of another one.
+    pub fn recall(system: &System, choice: Choice) -> Option<Self> {
+        let fits = choice.kept.len() == system.boundary.len();
+        fits.then(|| Self { choice, ..Self::new(system, 0.0) })
+    }
+
+    /// What is kept, and why.
+    pub fn choice(&self) -> &Choice {
+        &self.choice
+    }
+
+    /// The unknowns that are kept.
+    pub fn boundary(&self) -> Arc<[usize]> {
+        self.possible.iter().zip(&self.choice.kept).filter(|(_, kept)| **kept).map(|(&e, _)| e).collect()
     }
 
     /// Whether it was made for the pattern and the possible contact unknowns of a system.
@@ -49,30 +74,30 @@ impl Extent {
     /// A new boundary, where the present one does not cover the contact of the system or has become too large. `multipliers`
     /// counts those in the dense block, `factorisation` the operations of the interior.
     pub fn revise(&mut self, system: &System, multipliers: usize, factorisation: f64) -> Option<Arc<[usize]>> {
-        if self.whole {
+        if self.choice.whole {
             return None;
         }
         self.touch(system);
         let cost = |kept: &[bool]| dense_lu(kept.iter().filter(|k| **k).count() + multipliers);
-        if self.touched.iter().zip(&self.kept).all(|(touched, kept)| kept | !touched) {
-            self.waste += (cost(&self.kept) - cost(&self.widened(self.margin))).max(0.0);
-            self.lasted += 1.0;
-            if self.waste <= factorisation {
+        if self.touched.iter().zip(&self.choice.kept).all(|(touched, kept)| kept | !touched) {
+            self.choice.waste += (cost(&self.choice.kept) - cost(&self.widened(self.choice.margin))).max(0.0);
+            self.choice.lasted += 1.0;
+            if self.choice.waste <= factorisation {
                 return None;
             }
         } else {
             // the best margin costs as much as the analysis that it puts off
-            let spent = |margin| self.lasted * (cost(&self.widened(margin)) - cost(&self.touched));
-            if spent(2 * self.margin) <= factorisation {
-                self.margin = (2 * self.margin).min(self.touched.len());
-            } else if spent(self.margin) > factorisation {
-                self.margin = self.margin.div_ceil(2);
+            let spent = |margin| self.choice.lasted * (cost(&self.widened(margin)) - cost(&self.touched));
+            if spent(2 * self.choice.margin) <= factorisation {
+                self.choice.margin = (2 * self.choice.margin).min(self.touched.len());
+            } else if spent(self.choice.margin) > factorisation {
+                self.choice.margin = self.choice.margin.div_ceil(2);
             }
         }
-        let fresh = self.widened(self.margin);
-        (self.lasted, self.waste) = (1.0, 0.0);
-        self.kept = fresh;
-        Some(self.possible.iter().zip(&self.kept).filter(|(_, kept)| **kept).map(|(&e, _)| e).collect())
+        let fresh = self.widened(self.choice.margin);
+        (self.choice.lasted, self.choice.waste) = (1.0, 0.0);
+        self.choice.kept = fresh;
+        Some(self.boundary())
     }
 
     /// Marks the unknowns that the interface couples with others, and those on which it puts a negative spring, which could make

@@ -11,7 +11,7 @@ use faer::sparse::linalg::cholesky::supernodal::{
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::analysis::{Analysis, view};
-use crate::math::{DenseMatrix, Pattern, SolveError};
+use crate::math::{DenseMatrix, Pattern, SolveError, checksum};
 
 /// `K = [K_II K_IB; K_BI K_BB]` of one part, I its interior and B its boundary.
 ///
@@ -99,6 +99,11 @@ impl Part {
         self.condense();
         self.factored = true;
         Ok(true)
+    }
+
+    /// Checksum of the values that are factored, if any.
+    pub fn checksum(&self) -> Option<u64> {
+        self.factored.then(|| checksum(self.values.iter().map(|v| v.to_bits())))
     }
 
     /// Cholesky factor with the diagonal of the boundary doubled.

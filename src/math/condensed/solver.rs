@@ -3,7 +3,7 @@
 use super::Condensed;
 use super::extent::Extent;
 use super::idle::Idle;
-use crate::math::solver::{Counters, checked};
+use crate::math::solver::{Counters, SolverMemory, checked};
 use crate::math::{DenseLu, DenseMatrix, LinearSolver, SolveError, SparseLu, System};
 
 /// Solves `(K + C) x = b` with the bulk `K` condensed on the boundary of the [`System`], or where that is large on the part of
@@ -22,6 +22,8 @@ pub struct CondensedSolver {
     outer: Vec<f64>,
     reference: SparseLu,
     counters: Counters,
+    /// Memory of another solver until it is used.
+    recalled: SolverMemory,
 }
 
 impl LinearSolver for CondensedSolver {
@@ -43,6 +45,19 @@ impl LinearSolver for CondensedSolver {
         let factorisations = self.counters.factorisations + self.reference.factorisations();
         Counters { factorisations, ..self.counters }
     }
+
+    fn memory(&self) -> SolverMemory {
+        let SolverMemory { choice, stiffness, .. } = self.recalled.clone();
+        let (choice, stiffness) = match &self.analysed {
+            Some((extent, condensed)) => (Some(extent.choice().clone()), condensed.checksum()),
+            None => (choice, stiffness),
+        };
+        SolverMemory { counters: self.counters(), choice, stiffness }
+    }
+
+    fn recall(&mut self, memory: SolverMemory) {
+        *self = Self { counters: memory.counters, recalled: memory, ..Self::default() };
+    }
 }
 
 impl CondensedSolver {
@@ -50,6 +65,10 @@ impl CondensedSolver {
     fn analyse(&mut self, system: &System) -> Result<(), SolveError> {
         self.idle.eliminate(system);
         let pattern = &system.bulk.pattern;
+        if let Some(extent) = self.recalled.choice.take().and_then(|choice| Extent::recall(system, choice)) {
+            let condensed = Condensed::new(pattern.clone(), extent.boundary())?;
+            self.analysed = Some((extent, condensed));
+        }
         if !self.analysed.as_ref().is_some_and(|(extent, _)| extent.fits(system)) {
             let condensed = Condensed::new(pattern.clone(), system.boundary.clone())?;
             self.analysed = Some((Extent::new(system, condensed.operations()), condensed));
@@ -79,9 +98,12 @@ impl CondensedSolver {
     }
 
     fn condensed_solution(&mut self, system: &System, rhs: &[f64]) -> Result<Vec<f64>, SolveError> {
-        let Self { analysed, idle, block, lu, springs, outer, counters, .. } = self;
+        let Self { analysed, idle, block, lu, springs, outer, counters, recalled, .. } = self;
         let (_, condensed) = analysed.as_mut().expect("analysed");
-        counters.factorisations += usize::from(condensed.factor(&system.bulk, springs)? > 0);
+        let before = recalled.stiffness.take();
+        let factored = condensed.factor(&system.bulk, springs)? > 0;
+        let again = before.is_some() && condensed.checksum() == before;
+        counters.factorisations += usize::from(factored && !again);
         let (inner, boundary) = (system.bulk.pattern.n, condensed.boundary().len());
         let order = boundary + idle.left().len();
         let row = |e: usize| if e < inner { condensed.slot(e) } else { idle.place(e).map(|k| boundary + k) };

@@ -29,6 +29,26 @@ impl Axis {
         Self { min, max, ticks, labels, exponent }
     }
 
+    /// Logarithmic axis over the powers of ten with exponents in `[min, max]`: whole decades, with 2 and 5 between few of them.
+    pub fn decades([min, max]: [f64; 2]) -> Self {
+        let few = max - min < 2.5;
+        let stride = ((max - min) / 8.0).ceil().max(1.0) as i32;
+        let power = |k: i32| {
+            if few && (-3..=3).contains(&k) { plain_power(k) } else { format!("10^{{{}}}", label(f64::from(k), 0)) }
+        };
+        let (mut ticks, mut labels) = (vec![], vec![]);
+        for k in (min.floor() as i32..=max.ceil() as i32).filter(|k| k.rem_euclid(stride) == 0) {
+            for factor in [1.0, 2.0, 5.0].into_iter().take(if few { 3 } else { 1 }) {
+                let tick = f64::from(k) + f64::log10(factor);
+                if (min - 1e-9..=max + 1e-9).contains(&tick) {
+                    ticks.push(tick);
+                    labels.push(if factor == 1.0 { power(k) } else { power(k).replacen('1', &label(factor, 0), 1) });
+                }
+            }
+        }
+        Self { min, max, ticks, labels, exponent: 0 }
+    }
+
     /// Position of a value as a share of the axis, 0 at the start.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.min) / (self.max - self.min)
@@ -54,6 +74,11 @@ pub fn round_step(raw: f64) -> f64 {
     let power = 10.0_f64.powf(raw.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| raw <= factor * power * (1.0 + 1e-9));
     factor.unwrap_or(10.0) * power
+}
+
+/// A power of ten in plain digits.
+fn plain_power(exponent: i32) -> String {
+    label(10.0_f64.powi(exponent), exponent.min(0).unsigned_abs() as usize)
 }
 
 fn common_exponent(largest: f64) -> i32 {
@@ -110,6 +135,15 @@ mod tests {
     fn labels_do_not_depend_on_the_unit() {
         let labels = |scale: f64| Axis::new([-0.3 * scale, 4.0 * scale], 5).labels;
         assert_eq!(labels(1e-9), labels(1e9));
+    }
+
+    #[test]
+    fn decades_are_labelled_by_powers_and_few_of_them_by_numbers() {
+        assert_eq!(
+            Axis::decades([-4.1, 2.1]).labels,
+            ["10^{−4}", "10^{−3}", "10^{−2}", "10^{−1}", "10^{0}", "10^{1}", "10^{2}"]
+        );
+        assert_eq!(Axis::decades([-2.0, 0.1]).labels, ["0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1"]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Small multiples of the deformed bodies: von Mises stress, element edges, contact pressure and resultant.
 
 use super::axis::round_step;
-use super::canvas::{Anchor, Canvas, PER_MM, Rect, Stroke, path};
+use super::canvas::{Anchor, Canvas, PER_MM, Precision, Rect, Stroke};
 use super::palette::{GREY, INK};
 use super::sampling::{Sampled, StressRow};
 use super::{Instant, keys, overlay, palette};
@@ -10,7 +10,7 @@ use crate::output::UnitLabels;
 use crate::output::vtu::BodyField;
 
 /// Width of the figure in points: two columns.
-const WIDTH: f64 = 174.0 * PER_MM;
+pub const WIDTH: f64 = 174.0 * PER_MM;
 const GUTTER: f64 = 6.0;
 const TITLE: f64 = 11.0;
 const KEYS: f64 = 32.0;
@@ -42,6 +42,32 @@ impl Frame {
             bodies: bodies.iter().map(Sampled::new).collect(),
         }
     }
+
+    /// Samples the bodies for one picture of an animation: one cell an element.
+    pub fn brief(record: &Record, bodies: &[BodyField], interface: Vec<InterfaceRow>) -> Self {
+        let bodies = bodies.iter().map(Sampled::brief).collect();
+        Self { title: String::new(), record: record.clone(), interface, bodies }
+    }
+
+    /// What was computed at this instant.
+    pub fn record(&self) -> &Record {
+        &self.record
+    }
+}
+
+/// How much is drawn of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Detail {
+    precision: Precision,
+    levels: usize,
+    mesh: bool,
+}
+
+impl Detail {
+    /// For print.
+    pub const FULL: Self = Self { precision: Precision::FINE, levels: LEVELS, mesh: true };
+    /// For one of many pictures.
+    pub const BRIEF: Self = Self { precision: Precision::COARSE, levels: LEVELS / 4, mesh: false };
 }
 
 /// Map from the plane of the scene to a panel.
@@ -49,9 +75,16 @@ pub struct View {
     origin: [f64; 2],
     corner: [f64; 2],
     scale: f64,
+    detail: Detail,
 }
 
 impl View {
+    /// The view of a part of the plane in a panel that is as wide; y upwards in the plane, so that its `top` is the smallest y.
+    pub fn new(bounds: Rect, panel: Rect, detail: Detail) -> Self {
+        let scale = panel.width() / bounds.width();
+        Self { origin: [panel.left, panel.bottom], corner: [bounds.left, bounds.top], scale, detail }
+    }
+
     /// Position on the sheet.
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.origin[0] + self.scale * (x - self.corner[0]), self.origin[1] - self.scale * (y - self.corner[1])]
@@ -90,9 +123,9 @@ pub fn svg(frames: &[Frame], units: &UnitLabels) -> Option<String> {
         let left = GUTTER + (k % columns) as f64 * (panel_width + GUTTER);
         let top = (k / columns) as f64 * (panel_height + TITLE + GUTTER) + TITLE;
         let inset = left + 0.5 * (panel_width - scale * bounds.width());
-        let view = View { origin: [inset, top + panel_height], corner: [bounds.left, bounds.top], scale };
-        canvas.text([left, top - 2.0], &frame.title, Anchor::Start);
         let panel = Rect { left: inset, top, right: inset + scale * bounds.width(), bottom: top + panel_height };
+        let view = View::new(bounds, panel, Detail::FULL);
+        canvas.text([left, top - 2.0], &frame.title, Anchor::Start);
         canvas.clipped(panel, |canvas| frame.draw(canvas, &view, &scales));
     }
     keys::draw(&mut canvas, bottom + 8.0, scale, &scales, units);
@@ -101,7 +134,7 @@ pub fn svg(frames: &[Frame], units: &UnitLabels) -> Option<String> {
 
 /// The part of the plane that is shown (y upwards: `top` is the smallest y): the bodies, or the surroundings of a contact
 /// that would hardly be seen on them.
-fn bounds(frames: &[Frame]) -> Option<Rect> {
+pub fn bounds(frames: &[Frame]) -> Option<Rect> {
     let whole = extent(frames)?;
     let touching = || frames.iter().flat_map(|frame| &frame.interface).filter(|row| row.pressure > 0.0);
     let [left, right] = super::axis::range(touching().map(|row| row.x), 0.0);
@@ -129,7 +162,8 @@ fn extent(frames: &[Frame]) -> Option<Rect> {
 }
 
 impl Scales {
-    fn new(frames: &[Frame], panel_height: f64) -> Self {
+    /// Scales of all frames in panels of the given height.
+    pub fn new(frames: &[Frame], panel_height: f64) -> Self {
         let mut values: Vec<f64> = frames
             .iter()
             .flat_map(|frame| frame.bodies.iter().flat_map(|body| &body.rows))
@@ -162,11 +196,12 @@ fn round_up(value: f64) -> f64 {
 }
 
 impl Frame {
-    fn draw(&self, canvas: &mut Canvas, view: &View, scales: &Scales) {
+    /// Draws the bodies, the pressure and the resultant.
+    pub fn draw(&self, canvas: &mut Canvas, view: &View, scales: &Scales) {
         for body in &self.bodies {
             draw_stress(canvas, view, &body.rows, scales.stress);
             let mesh: String = body.mesh.iter().map(|line| placed(view, line)).collect();
-            if !mesh.is_empty() {
+            if view.detail.mesh && !mesh.is_empty() {
                 canvas.stroke_path(&mesh, Stroke { opacity: 0.35, ..Stroke::solid(GREY, 0.15) });
             }
             let outline: String = body.outline.iter().map(|line| placed(view, line)).collect();
@@ -178,24 +213,26 @@ impl Frame {
 }
 
 fn placed(view: &View, line: &[[f64; 2]]) -> String {
-    path(&line.iter().map(|point| view.place(*point)).collect::<Vec<_>>(), false)
+    view.detail.precision.path(&line.iter().map(|point| view.place(*point)).collect::<Vec<_>>(), false)
 }
 
 /// Fills the cells, one path per colour; neighbours of one colour in a row are one polygon.
 fn draw_stress(canvas: &mut Canvas, view: &View, rows: &[StressRow], largest: f64) {
-    let level = |value: f64| (value / largest * LEVELS as f64).clamp(0.0, LEVELS as f64 - 1.0) as usize;
-    let mut paths = vec![String::new(); LEVELS];
+    let Detail { precision, levels: count, .. } = view.detail;
+    let level = |value: f64| (value / largest * count as f64).clamp(0.0, count as f64 - 1.0) as usize;
+    let mut paths = vec![String::new(); count];
     for row in rows {
         let levels: Vec<usize> = row.values.iter().map(|value| level(*value)).collect();
         let mut start = 0;
         for run in levels.chunk_by(|a, b| a == b) {
             let end = start + run.len();
             let corners = row.lower[start..=end].iter().chain(row.upper[start..=end].iter().rev());
-            paths[run[0]].push_str(&path(&corners.map(|point| view.place(*point)).collect::<Vec<_>>(), true));
+            let placed: Vec<_> = corners.map(|point| view.place(*point)).collect();
+            paths[run[0]].push_str(&precision.path(&placed, true));
             start = end;
         }
     }
     for (level, path) in paths.iter().enumerate().filter(|(_, path)| !path.is_empty()) {
-        canvas.fill_path(path, &palette::stress((level as f64 + 0.5) / LEVELS as f64), 1.0, true);
+        canvas.fill_path(path, &palette::stress((level as f64 + 0.5) / count as f64), 1.0, true);
     }
 }

@@ -4,11 +4,56 @@ use std::fmt::Write;
 
 use super::palette::INK;
 use super::text;
+use crate::output::fingerprint;
 
 /// Points per millimetre.
 pub const PER_MM: f64 = 72.0 / 25.4;
-/// Corners of a line leave it by less than this (in points) to be dropped.
-const FLAT: f64 = 0.03;
+/// How exactly paths are written.
+#[derive(Clone, Copy, Debug)]
+pub struct Precision {
+    /// Corners of a line leave it by less than this (in points) to be dropped.
+    flat: f64,
+    decimals: usize,
+}
+
+impl Precision {
+    /// For print.
+    pub const FINE: Self = Self { flat: 0.03, decimals: 2 };
+    /// For pictures that are shown for a moment.
+    pub const COARSE: Self = Self { flat: 0.15, decimals: 1 };
+
+    /// SVG path through points, corners that do not show dropped.
+    pub fn path(self, points: &[[f64; 2]], closed: bool) -> String {
+        let mut text = String::new();
+        for (k, [x, y]) in self.visible(points).into_iter().enumerate() {
+            let _ = write!(text, "{}{x:.d$} {y:.d$}", if k == 0 { "M" } else { "L" }, d = self.decimals);
+        }
+        if closed {
+            text.push('Z');
+        }
+        text
+    }
+
+    /// Drops points that lie on the line from the last kept point to their successor.
+    fn visible(self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
+        let mut pending: Vec<[f64; 2]> = Vec::new();
+        for &point in points {
+            if let Some(&start) = kept.last()
+                && pending.iter().all(|middle| distance(*middle, start, point) < self.flat)
+            {
+                pending.push(point);
+                continue;
+            }
+            kept.extend(pending.pop());
+            pending.clear();
+            if kept.is_empty() { kept.push(point) } else { pending.push(point) }
+        }
+        kept.extend(pending.pop());
+        kept
+    }
+}
+
 /// Stands for the prefix of ids until the whole figure is known.
 const CLIP: &str = "@clip-";
 
@@ -111,9 +156,17 @@ impl Canvas {
         );
     }
 
-    /// Fills a path given in SVG syntax. `crisp` leaves no seams between neighbours that share an edge.
-    pub fn fill_path(&mut self, path: &str, colour: &str, opacity: f64, crisp: bool) {
-        let crisp = if crisp { " shape-rendering=\"crispEdges\"" } else { "" };
+    /// A filled circle.
+    pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, colour: &str) {
+        let _ = writeln!(self.body, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{colour}\"/>");
+    }
+
+    /// Fills a path given in SVG syntax. `seamless` leaves no seams between neighbours that share an edge.
+    pub fn fill_path(&mut self, path: &str, colour: &str, opacity: f64, seamless: bool) {
+        let crisp = match seamless {
+            true => format!(" stroke=\"{colour}\" stroke-width=\"0.3\" shape-rendering=\"crispEdges\""),
+            false => String::new(),
+        };
         let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{opacity}\"") } else { String::new() };
         let _ = writeln!(self.body, "<path d=\"{path}\" fill=\"{colour}\"{opacity}{crisp}/>");
     }
@@ -151,10 +204,23 @@ impl Canvas {
         self.body.push_str("</g>\n");
     }
 
+    /// What `draw` adds as one group with the given attributes.
+    pub fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
+        let _ = writeln!(self.body, "<g {attributes}>");
+        draw(self);
+        self.body.push_str("</g>\n");
+    }
+
+    /// Rules of CSS for the whole document.
+    pub fn style(&mut self, css: &str) {
+        let _ = writeln!(self.body, "<style>{css}</style>");
+    }
+
     /// The complete document.
     pub fn finish(self) -> String {
         let [width, height] = self.size;
         let [wide, high] = self.size.map(|points| points / PER_MM);
+        // ids must be unique where several figures stand in one HTML page
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide:.2}mm\" height=\"{high:.2}mm\" viewBox=\"0 0 {width:.2} {height:.2}\" font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{}</svg>\n",
             self.body.replace(CLIP, &format!("c{:x}-", fingerprint(&self.body)))
@@ -162,40 +228,9 @@ impl Canvas {
     }
 }
 
-/// FNV-1a hash: tells figures apart that stand in one HTML page, where ids must be unique.
-fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
-}
-
-/// SVG path through points, coordinates to 0.01 pt, corners that do not show dropped.
+/// SVG path through points, for print.
 pub fn path(points: &[[f64; 2]], closed: bool) -> String {
-    let mut text = String::new();
-    for (k, p) in visible(points).iter().enumerate() {
-        let _ = write!(text, "{}{:.2} {:.2}", if k == 0 { "M" } else { "L" }, p[0], p[1]);
-    }
-    if closed {
-        text.push('Z');
-    }
-    text
-}
-
-/// Drops points that lie on the line from the last kept point to their successor.
-fn visible(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
-    let mut pending: Vec<[f64; 2]> = Vec::new();
-    for &point in points {
-        if let Some(&start) = kept.last()
-            && pending.iter().all(|middle| distance(*middle, start, point) < FLAT)
-        {
-            pending.push(point);
-            continue;
-        }
-        kept.extend(pending.pop());
-        pending.clear();
-        if kept.is_empty() { kept.push(point) } else { pending.push(point) }
-    }
-    kept.extend(pending.pop());
-    kept
+    Precision::FINE.path(points, closed)
 }
 
 /// Distance of a point from a segment.
@@ -215,11 +250,11 @@ mod tests {
         let line = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0], [3.0, 2.0], [3.0, 4.0]];
         assert_eq!(path(&line, false), "M0.00 0.00L3.00 0.00L3.00 4.00");
         let bend: Vec<_> = (0..=20).map(|k| [f64::from(k), f64::from(k * k) / 20.0]).collect();
-        assert!(visible(&bend).len() > 10);
+        assert!(Precision::FINE.visible(&bend).len() > 10);
     }
 
     #[test]
     fn a_line_that_turns_back_keeps_its_turning_point() {
-        assert_eq!(visible(&[[0.0, 0.0], [5.0, 0.0], [1.0, 0.0]]).len(), 3);
+        assert_eq!(Precision::FINE.visible(&[[0.0, 0.0], [5.0, 0.0], [1.0, 0.0]]).len(), 3);
     }
 }

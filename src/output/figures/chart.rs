@@ -26,12 +26,14 @@ pub struct Series {
     pub width: f64,
     /// Dash pattern, empty for a solid line.
     pub dash: &'static str,
+    /// Whether the points are marked.
+    pub dots: bool,
 }
 
 impl Series {
     /// A solid curve of usual width.
     pub fn new(label: &str, colour: &str, points: Vec<[f64; 2]>) -> Self {
-        Self { label: label.into(), points, colour: colour.into(), width: 1.2, dash: "" }
+        Self { label: label.into(), points, colour: colour.into(), width: 1.2, dash: "", dots: false }
     }
 
     /// The same curve, dashed.
@@ -84,6 +86,8 @@ pub struct Column {
     pub x_label: String,
     /// Range of the shared horizontal axis.
     pub x_range: [f64; 2],
+    /// Whether the abscissas are powers of ten, and so labelled.
+    pub x_logarithmic: bool,
     /// Frames from top to bottom.
     pub charts: Vec<Chart>,
     /// Legend above the frames.
@@ -135,10 +139,14 @@ impl Column {
         let mut frames = Vec::with_capacity(axes.len());
         for (chart, y) in self.charts.iter().zip(axes) {
             let rect = Rect { left, top, right: COLUMN - 6.0, bottom: top + chart.height };
-            frames.push(Frame { rect, x: Axis::new(self.x_range, 6), y });
+            frames.push(Frame { rect, x: self.x_axis(), y });
             top = rect.bottom + if power { GAP + 4.0 } else { GAP };
         }
         frames
+    }
+
+    fn x_axis(&self) -> Axis {
+        if self.x_logarithmic { Axis::decades(self.x_range) } else { Axis::new(self.x_range, 6) }
     }
 
     fn move_labels_to_legend(&mut self) {
@@ -204,7 +212,8 @@ impl Chart {
     fn draw_data(&self, canvas: &mut Canvas, frame: &Frame) {
         canvas.clipped(frame.rect, |canvas| {
             for band in &self.bands {
-                for run in band.edges.split(|edge| edge.iter().any(|value| !value.is_finite())) {
+                let broken = |edge: &[f64; 3]| edge.iter().any(|value| !value.is_finite());
+                for run in band.edges.split(broken).filter(|run| run.len() > 1) {
                     let lower = run.iter().map(|[x, low, _]| frame.place([*x, *low]));
                     let upper = run.iter().rev().map(|[x, _, high]| frame.place([*x, *high]));
                     canvas.fill_path(&path(&lower.chain(upper).collect::<Vec<_>>(), true), &band.colour, 1.0, false);
@@ -213,6 +222,9 @@ impl Chart {
             for series in &self.series {
                 let points: Vec<_> = series.points.iter().map(|point| frame.place(*point)).collect();
                 canvas.polyline(&points, Stroke { dash: series.dash, ..Stroke::solid(&series.colour, series.width) });
+                for point in points.into_iter().filter(|point| series.dots && point.iter().all(|c| c.is_finite())) {
+                    canvas.dot(point, 1.1 + 0.4 * series.width, &series.colour);
+                }
             }
         });
     }

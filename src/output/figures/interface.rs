@@ -48,7 +48,9 @@ fn svg(
         charts.push(panel(units.axis("traction *q*", Quantity::Stress), 66.0, |row| row.traction, false));
     }
     let x_label = units.axis("arc length along the interface", Quantity::Length);
-    Some(Column { x_label, x_range, charts, keys: keys(instants), labels_repeat_keys: true, marks: Vec::new() }.draw())
+    Some(
+        Column { x_label, x_range, charts, keys: keys(instants), labels_repeat_keys: true, ..Column::default() }.draw(),
+    )
 }
 
 fn keys(instants: &[Instant]) -> Vec<Key> {

@@ -8,11 +8,13 @@
 //! | `states` | internal variables of the law over the closed sites: range and mean (laws with memory only) |
 //! | `energy` | external work, strain energy, dissipation, and what the balance leaves open |
 //! | `certify` | differences between Newton and conic solution, and what both cost (certified runs only) |
+//! | `animation` | the bodies sliding, forces below; SVG only, moves in a browser |
 //! | `bodies` | deformed bodies at the same instants, coloured by von Mises stress, with contact pressure and resultant |
 //!
 //! The SVG is written by this room (a chart is 200 lines, the bodies need their own drawing anyway); `resvg` turns it
 //! into PNG with the bundled DejaVu Sans, so that no font of the machine is needed.
 
+mod animation;
 mod axis;
 mod bodies;
 mod canvas;
@@ -26,6 +28,7 @@ mod instants;
 mod interface;
 mod keys;
 mod labels;
+pub mod lines;
 mod overlay;
 mod palette;
 mod png;
@@ -36,9 +39,11 @@ mod states;
 pub(crate) mod synthetic;
 mod text;
 
+pub use animation::film;
 pub use bodies::Frame;
 pub use instants::{CONTACT_THRESHOLD, Instant, choose};
 pub use png::DPI;
+pub(super) use text::escape;
 
 use std::path::{Path, PathBuf};
 
@@ -103,6 +108,25 @@ impl Data<'_> {
         let record = &self.records[instant.index];
         let rows = self.interface.iter().filter(|row| row.step == record.step).cloned().collect();
         Frame::sample(instant, record, bodies, rows)
+    }
+
+    /// Samples the bodies at one row of the history for [`Self::write_animation`].
+    pub fn brief_frame(&self, index: usize, bodies: &[BodyField]) -> Frame {
+        let record = &self.records[index];
+        let first = self.interface.partition_point(|row| row.step < record.step);
+        let rows = self.interface[first..].iter().take_while(|row| row.step == record.step).cloned().collect();
+        Frame::brief(record, bodies, rows)
+    }
+
+    /// Writes `animation` as SVG and returns its path; nothing for fewer than two frames.
+    ///
+    /// # Errors
+    /// The path and the reason if it cannot be written.
+    pub fn write_animation(&self, folder: &Path, frames: &[Frame]) -> Result<Option<PathBuf>, OutputError> {
+        let Some(svg) = animation::svg(self.records, frames, self.units) else { return Ok(None) };
+        let path = folder.join("animation.svg");
+        write_atomic(&path, svg.as_bytes())?;
+        Ok(Some(path))
     }
 
     /// Writes `bodies` as SVG and PNG and returns the paths; nothing without frames.

@@ -38,9 +38,18 @@ pub struct Sampled {
 impl Sampled {
     /// Samples a body in its deformed position.
     pub fn new(body: &BodyField) -> Self {
+        Self::with(body, MOST_CELLS)
+    }
+
+    /// The same with one cell an element.
+    pub fn brief(body: &BodyField) -> Self {
+        Self::with(body, 0)
+    }
+
+    fn with(body: &BodyField, most_cells: usize) -> Self {
         match body {
             BodyField::Deformable { patch, displacement, stress, .. } => {
-                Deformed { patch, displacement }.sampled(stress)
+                Deformed { patch, displacement }.sampled(stress, most_cells)
             }
             BodyField::Rigid { curve, displacement, .. } => rigid(curve, displacement),
         }
@@ -74,9 +83,9 @@ struct Deformed<'a> {
 }
 
 impl Deformed<'_> {
-    fn sampled(&self, stress: &StressField) -> Sampled {
+    fn sampled(&self, stress: &StressField, most_cells: usize) -> Sampled {
         let [nu, nv] = self.patch.elements();
-        let mut sampled = Sampled { rows: self.stress_rows(stress), ..Sampled::default() };
+        let mut sampled = Sampled { rows: self.stress_rows(stress, most_cells), ..Sampled::default() };
         let across = (0..=nu).map(|i| (self.line(0, i), i == 0 || i == nu));
         let along = (0..=nv).map(|j| (self.line(1, j), j == 0 || j == nv));
         for (line, border) in across.chain(along) {
@@ -115,10 +124,10 @@ impl Deformed<'_> {
         line
     }
 
-    /// Rows of cells, every element divided alike, as finely as [`MOST_CELLS`] allows (at most 4 x 4).
-    fn stress_rows(&self, stress: &StressField) -> Vec<StressRow> {
+    /// Rows of cells, every element divided alike, as finely as `most_cells` allows (at most 4 x 4).
+    fn stress_rows(&self, stress: &StressField, most_cells: usize) -> Vec<StressRow> {
         let [nu, nv] = self.patch.elements();
-        let pieces = (4..=4).chain([3, 2]).find(|n| n * n * nu * nv <= MOST_CELLS).unwrap_or(1);
+        let pieces = (4..=4).chain([3, 2]).find(|n| n * n * nu * nv <= most_cells).unwrap_or(1);
         let level = |j: usize, t: f64| -> Line {
             let corner = |k: usize| match k {
                 k if k == nu * pieces => self.place([nu - 1, j], [1.0, t]),

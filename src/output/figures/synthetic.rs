@@ -64,6 +64,8 @@ fn row(step: usize, time: f64, force: [f64; 2], work: f64) -> Record {
         force_imbalance: 1e-16,
         moment_imbalance: 1e-16,
         weakening: 0.0,
+        snaps: 0,
+        snap_loss: 0.0,
     }
 }
 

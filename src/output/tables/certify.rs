@@ -59,8 +59,15 @@ impl CertifyWriter {
     /// # Errors
     /// The path and the reason if it cannot be written.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
-        let header: Vec<String> = CERTIFY_COLUMNS.iter().map(|column| column.0.to_owned()).collect();
-        Ok(Self { table: Table::create(path, &header)? })
+        Ok(Self { table: Table::create(path, &header())? })
+    }
+
+    /// Continues an existing table after `last_step`, see [`super::HistoryWriter::resume`].
+    ///
+    /// # Errors
+    /// The path and the reason if it cannot be read or written, or if its columns are others.
+    pub fn resume(path: &Path, last_step: usize) -> Result<Self, OutputError> {
+        Ok(Self { table: Table::resume(path, &header(), last_step)? })
     }
 
     /// Appends rows and flushes them.
@@ -70,6 +77,10 @@ impl CertifyWriter {
     pub fn append(&mut self, rows: &[CertifyRow]) -> Result<(), OutputError> {
         self.table.rows(rows.iter().map(cells))
     }
+}
+
+fn header() -> Vec<String> {
+    CERTIFY_COLUMNS.iter().map(|column| column.0.to_owned()).collect()
 }
 
 fn cells(row: &CertifyRow) -> Vec<String> {

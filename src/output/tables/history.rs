@@ -7,7 +7,7 @@ use crate::model::Record;
 use crate::output::{OutputError, Quantity};
 
 /// Columns of `history.csv` in order: name, kind of quantity, meaning. The names up to `wall_s` are fixed.
-pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 24] = [
+pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 26] = [
     ("step", Quantity::Number, "nominal step, 1 = first"),
     ("time", Quantity::Time, "time at the end of the step"),
     ("drive_x", Quantity::Length, "displacement of the driven edge in x"),
@@ -36,6 +36,8 @@ pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 24] = [
         Quantity::Number,
         "share of the bodies' tangential stiffness taken by friction that falls with the slip rate",
     ),
+    ("snaps", Quantity::Number, "sudden changes to another equilibrium crossed in the step"),
+    ("snap_loss", Quantity::Energy, "energy set free by them since the start"),
 ];
 
 /// Appends to `history.csv`; a row is on disk when `append` returns.
@@ -68,6 +70,14 @@ impl HistoryWriter {
     pub fn append(&mut self, record: &Record) -> Result<(), OutputError> {
         self.table.rows(std::iter::once(cells(record)))
     }
+
+    /// Waits until all rows are on the disk itself.
+    ///
+    /// # Errors
+    /// The path and the operating system's reason.
+    pub fn sync(&self) -> Result<(), OutputError> {
+        self.table.sync()
+    }
 }
 
 fn header() -> Vec<String> {
@@ -98,6 +108,7 @@ fn cells(record: &Record) -> Vec<String> {
     row.extend([record.wall_s, record.reaction_base[0], record.reaction_base[1]].map(number));
     row.push(record.fully_slipping.to_string());
     row.extend([record.force_imbalance, record.moment_imbalance, record.weakening].map(number));
+    row.extend([record.snaps.to_string(), number(record.snap_loss)]);
     row
 }
 
@@ -135,5 +146,7 @@ fn record(mut row: Row) -> Result<Record, OutputError> {
         force_imbalance: row.take()?,
         moment_imbalance: row.take()?,
         weakening: row.take()?,
+        snaps: row.take()?,
+        snap_loss: row.take()?,
     })
 }

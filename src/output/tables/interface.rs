@@ -58,6 +58,14 @@ impl InterfaceWriter {
         let variables = self.variables;
         self.table.rows(rows.iter().map(|row| cells(row, variables)))
     }
+
+    /// Waits until all rows are on the disk itself.
+    ///
+    /// # Errors
+    /// The path and the operating system's reason.
+    pub fn sync(&self) -> Result<(), OutputError> {
+        self.table.sync()
+    }
 }
 
 fn header(variables: &[String]) -> Vec<String> {

@@ -63,6 +63,11 @@ impl Table {
         }
         self.writer.flush().map_err(OutputError::io("append to", &self.path))
     }
+
+    /// Waits until all rows are on the disk itself.
+    fn sync(&self) -> Result<(), OutputError> {
+        self.writer.get_ref().sync_data().map_err(OutputError::io("write", &self.path))
+    }
 }
 
 /// The header and the complete rows up to and including `last_step` (first column of every table).
@@ -94,6 +99,34 @@ fn read_cells(path: &Path, columns: &[&str]) -> Result<Cells, OutputError> {
     }
     let rows = reader.records().collect::<Result<_, _>>().map_err(bad)?;
     Ok((header, rows))
+}
+
+/// Columns of numbers, by name; `true` and `false` are 1 and 0. A last line cut by a kill is left out.
+///
+/// # Errors
+/// A table without such a column, or file, line and column of a cell that is no number.
+pub fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
+    let text = fs::read_to_string(path).map_err(OutputError::io("read", path))?;
+    let mut lines = text.split_inclusive('\n').filter(|line| line.ends_with('\n')).map(str::trim_end);
+    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let place = |name: &&str| header.iter().position(|column| column == name);
+    let missing = |name: &str| OutputError::content(path, format!("there is no column {name}"));
+    let places: Vec<usize> = names.iter().map(|n| place(n).ok_or_else(|| missing(n))).collect::<Result<_, _>>()?;
+    let mut columns = vec![vec![]; names.len()];
+    for (k, line) in lines.enumerate() {
+        let cells: Vec<&str> = line.split(',').collect();
+        for (column, (name, at)) in columns.iter_mut().zip(names.iter().zip(&places)) {
+            let cell = cells.get(*at).copied().unwrap_or_default();
+            let value = match cell {
+                "true" => Some(1.0),
+                "false" => Some(0.0),
+                number => number.parse().ok(),
+            };
+            let bad = || OutputError::content(path, format!("line {}, column {name}: cannot read \"{cell}\"", k + 2));
+            column.push(value.ok_or_else(bad)?);
+        }
+    }
+    Ok(columns)
 }
 
 /// Reads the cells of one row from left to right, naming file, row and column in errors.

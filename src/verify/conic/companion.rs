@@ -41,7 +41,8 @@ impl Witness for Companion<'_> {
     }
 
     fn rescue(&mut self, model: &Model, start: &State, time: f64, interrupt: &AtomicBool) -> Option<State> {
-        let solved = from_start(model, start, (time, GOAL), &mut self.stage, interrupt).ok()?;
+        // a stage of its own: what was analysed before must not show in the last bits, a resumed run has not
+        let solved = from_start(model, start, (time, GOAL), &mut Stage::default(), interrupt).ok()?;
         Some(solved.answer.state(model, start, time))
     }
 }

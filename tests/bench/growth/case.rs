@@ -5,7 +5,9 @@ use std::fmt;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use asperity::math::{CondensedSolver, Counters, DenseLu, DenseMatrix, LinearSolver, SolveError, SparseLu, System};
+use asperity::math::{
+    CondensedSolver, Counters, DenseLu, DenseMatrix, LinearSolver, SolveError, SolverMemory, SparseLu, System,
+};
 use asperity::model::{State, Tangent, evaluate};
 use asperity::solve::{Control, march};
 use cpu_time::ThreadTime;
@@ -73,6 +75,14 @@ impl LinearSolver for Clocked {
 
     fn counters(&self) -> Counters {
         self.solver.counters()
+    }
+
+    fn memory(&self) -> SolverMemory {
+        self.solver.memory()
+    }
+
+    fn recall(&mut self, memory: SolverMemory) {
+        self.solver.recall(memory);
     }
 }
 

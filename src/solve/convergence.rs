@@ -1,0 +1,41 @@
+//! When a Newton iteration has converged, and when it will not.
+
+use crate::model::{Evaluation, Model};
+
+/// Accepted residual relative to the largest nodal force.
+const RELATIVE: f64 = 1e-9;
+/// Accepted residual relative to `E` times the size of the model: round-off of a translated body. Near incompressibility it
+/// grows with the stiffness against changes of volume.
+const ROUND_OFF: f64 = 1e-14;
+/// Iterations without a residual below half of the best before, after which the next guess is tried.
+const PATIENCE: usize = 5;
+
+/// True where the residual is as small as is asked for.
+pub fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
+    largest(&evaluation.residual) <= tolerance(model, evaluation)
+}
+
+/// The residual asked for.
+pub fn tolerance(model: &Model, evaluation: &Evaluation) -> f64 {
+    RELATIVE * evaluation.force_scale + ROUND_OFF * model.modulus * model.confinement * model.size()
+}
+
+/// True where the best residual is [`PATIENCE`] iterations old: the active set cycles.
+pub fn stalled(residuals: &[f64]) -> bool {
+    let (old, new) = residuals.split_at(residuals.len().saturating_sub(PATIENCE));
+    let best = |part: &[f64]| part.iter().fold(f64::INFINITY, |m, v| m.min(*v));
+    !old.is_empty() && best(new) > 0.5 * best(old)
+}
+
+/// The next residual, should the convergence be quadratic.
+pub fn forecast(residuals: &[f64]) -> f64 {
+    match residuals {
+        [.., before, last] => last * (last / before).powi(2),
+        _ => f64::INFINITY,
+    }
+}
+
+/// Largest magnitude; `NaN` if there is one.
+pub fn largest(residual: &[f64]) -> f64 {
+    residual.iter().fold(0.0_f64, |m, v| if v.is_nan() || m.is_nan() { f64::NAN } else { m.max(v.abs()) })
+}
