@@ -207,7 +207,8 @@ fn contact_length(evaluation: &Evaluation) -> f64 {
     let closed = |i: &InterfaceForces| -> f64 {
         i.sites.iter().filter(|s| s.status != ContactStatus::Open).map(|s| s.weight).sum()
     };
-    evaluation.interfaces.iter().map(closed).sum()
+    // an empty sum is -0
+    evaluation.interfaces.iter().map(closed).sum::<f64>() + 0.0
 }
 
 fn fully_slipping(evaluation: &Evaluation) -> bool {

@@ -244,8 +244,9 @@ impl March<'_, '_> {
     /// Asks the companion for another way to a step that failed.
     fn rescue(&mut self, next: f64, failure: StepFailure) -> Result<NewtonReport, StepFailure> {
         let Outcome { state: start, iterations, .. } = &mut self.outcome;
-        let lost = failure.lost();
-        let guess = lost.then(|| self.tools.witness.rescue(self.model, start, next, self.interrupt)).flatten();
+        // Once in a row of cuts: where it does not help, there may be no equilibrium.
+        let asked = failure.lost() && self.failures == 0;
+        let guess = asked.then(|| self.tools.witness.rescue(self.model, start, next, self.interrupt)).flatten();
         let Some(guess) = guess else { return Err(failure) };
         let (model, strategy, interrupt) = (self.model, self.strategy, self.interrupt);
         let mut step = Step {
