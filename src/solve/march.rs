@@ -10,6 +10,7 @@ use crate::model::{
 
 use super::Strategy;
 use super::crossing::cross;
+use super::limits;
 use super::newton::{NewtonReport, Step, StepFailure, solve_dragged, solve_step};
 use super::status::{Outcome, Status};
 use super::witness::{Effort, Witness};
@@ -208,7 +209,11 @@ impl March<'_, '_> {
                         _ => self.outcome.dt = 0.5 * (next - time),
                     }
                     if self.outcome.dt.min(self.outcome.law) < self.smallest {
-                        return Err(Status::NotConverged { time, reason: failure.to_string() });
+                        if failure.lost() && target - time > self.smallest && self.cross(target) {
+                            continue;
+                        }
+                        let reason = failure.to_string() + &limits::reached(self.model, &self.outcome.state);
+                        return Err(Status::NotConverged { time, reason });
                     }
                 }
             }

@@ -4,6 +4,7 @@ mod convergence;
 mod crossing;
 mod floating;
 mod interface_loop;
+mod limits;
 mod march;
 mod newton;
 mod predictor;
