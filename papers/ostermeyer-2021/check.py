@@ -46,18 +46,22 @@ def checks(study, points):
             identity = max(identity, (off, place), key=lambda pair: pair[0])
             judged += 1
         last = history[-1]
-        energy = max(number(row, "strain_energy") for row in history)
-        parts = ["strain_energy", "dissipated", "snap_loss"]
-        open_ = number(last, "external_work") - sum(number(last, name) for name in parts)
-        turnover = max(energy, absolute_work(history))
+        # pressing, and pushing out an overlap to start with, is set aside
+        pressed = [row for row in history if number(row, "drive_x") == 0][-1:]
+
+        def spent(name):
+            return number(last, name) - sum(number(row, name) for row in pressed)
+
+        open_ = spent("external_work") - sum(map(spent, ["strain_energy", "dissipated", "snap_loss"]))
+        turnover = max(max(number(row, "strain_energy") for row in history), absolute_work(history))
         balance = max(balance, (abs(open_) / turnover, place), key=lambda pair: pair[0])
-        if mu == 0 and number(last, "snap_loss") == 0:
-            cost = number(last, "external_work") - number(last, "strain_energy")
+        if mu == 0 and spent("snap_loss") == 0:
+            cost = spent("external_work") - spent("strain_energy")
             net = max(net, (abs(cost) / turnover, place), key=lambda pair: pair[0])
     print(f"{len(points)} passes, {judged} fully slipping steps")
-    print("mu_global - tan(atan mu + contact_angle), worst:      %.1e at %s" % identity)
-    print("W - U - D - snap loss at the end, over absolute work: %.1e at %s" % balance)
-    print("mu = 0 without snap: net over absolute work:          %.1e at %s" % net)
+    print("mu_global - tan(atan mu + contact_angle), worst:          %.1e at %s" % identity)
+    print("W - U - D - snap loss of the sliding, over absolute work: %.1e at %s" % balance)
+    print("mu = 0 without snap: net over absolute work:              %.1e at %s" % net)
 
 
 def rigid(angle, mu, low, high, count=2000):
