@@ -86,6 +86,25 @@ fn run_leaves_history_interface_fields_and_the_input() {
 }
 
 #[test]
+fn certify_solves_every_step_twice_and_says_what_it_found() {
+    let folder = folder("certify");
+    for (command, flag) in [("certify", None), ("run", Some("--certify"))] {
+        let mut arguments = vec![command, "scene.toml", "--out", command, "--set", "time.steps=2"];
+        arguments.extend(flag);
+        let output = asperity(&folder, &arguments);
+        assert!(output.status.success(), "{output:?}");
+        assert!(stdout(&output).starts_with("conic cross-check of 2 steps: 2 agree, 0 inconclusive, 0 disagree"));
+        let table = std::fs::read_to_string(folder.join(command).join("certify.csv")).unwrap();
+        let rows: Vec<&str> = table.lines().collect();
+        assert!(rows[0].starts_with("step,time,verdict,du,dp,dq,dfx,dfy,newton_iterations,programmes"));
+        assert_eq!(rows.iter().filter(|row| row.contains(",agrees,")).count(), 2, "{table}");
+        let result = &run_json(&folder.join(command))["result"];
+        assert_eq!(result["certified"]["agrees"], 2);
+        assert_eq!(result["counters"]["rescued_steps"], 0);
+    }
+}
+
+#[test]
 fn quiet_is_quiet() {
     let folder = folder("quiet");
     let said = asperity(

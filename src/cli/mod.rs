@@ -2,6 +2,7 @@
 //!
 //! In the library, so that a program with laws of its own is three lines: see `examples/own_law`.
 
+mod certify;
 mod check;
 mod laws;
 mod outcome;
@@ -24,6 +25,7 @@ const AFTER_HELP: &str = "\
 Examples:
   asperity check examples/single_asperity.toml
   asperity run examples/single_asperity.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
+  asperity certify examples/single_asperity.toml
   asperity sweep examples/sweep/study.toml
   asperity laws coulomb
   asperity laws rate-and-state --probe examples/probe.toml
@@ -55,6 +57,12 @@ enum Command {
     /// and run.json. Ctrl-C stops at the next iteration and keeps everything computed so far (exit code 5); after that, or
     /// after a crash or a kill at any moment, --resume goes on behind the last step that was reached.
     Run(RunArguments),
+    /// Compute a scene and check every step against a second, independent method.
+    ///
+    /// As `run --certify`: each accepted step is solved once more from its start by a sequence of conic programmes (Clarabel)
+    /// and its contact forces are certified; certify.csv holds the differences, and a summary is printed. Exit code 4
+    /// if the methods disagree.
+    Certify(RunArguments),
     /// Compute a scene again and again with some of its values changed; one table and figures at the end.
     ///
     /// Points run in parallel over the cores, each into a folder of its own below the study's. A point that is there already is
@@ -132,6 +140,9 @@ struct RunArguments {
     /// Folder of the results; made if it does not exist [default: out/<name of the scene>].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Check every step against the conic method, see `asperity certify`; takes several times as long.
+    #[arg(long)]
+    certify: bool,
     /// Go on with the run in the folder of the results, bit for bit as if it had not been interrupted.
     ///
     /// The scene must be the same; only a later `time.end` with steps of the same length is accepted, and, for a run that did not
@@ -146,7 +157,8 @@ struct RunArguments {
 /// Runs the command of the command line and turns its outcome into an exit code; errors go to stderr.
 pub fn main() -> ExitCode {
     let outcome = match &Cli::parse().command {
-        Command::Run(arguments) => run::run(arguments),
+        Command::Run(arguments) => run::run(arguments, arguments.certify),
+        Command::Certify(arguments) => run::run(arguments, true),
         Command::Sweep(arguments) => sweep::command(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Laws { name, probe, out } => laws::laws(name.as_deref(), probe.as_deref(), out.as_deref()),

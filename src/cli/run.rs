@@ -13,13 +13,15 @@ use crate::verify::{Finding, step_warnings};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::RunArguments;
+use super::certify::table;
 use super::check::load;
 use super::outcome::{Exit, Failure, note, say, warn};
 use super::resume::{begin, command};
 
-/// Computes a scene into a folder.
-pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
-    let (scene, model) = load(&arguments.scene)?;
+/// Computes a scene into a folder; `certify`: and checks every step by the conic method.
+pub fn run(arguments: &RunArguments, certify: bool) -> Result<Exit, Failure> {
+    let (mut scene, model) = load(&arguments.scene)?;
+    scene.solution.certify |= certify;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.scene.scene));
     let folder = RunFolder::create(&out)
         .map_err(|error| Failure::input(format!("{error}\n  = argument: --out {}", out.display())))?;
@@ -38,13 +40,16 @@ pub fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let report = scene::resume(&scene, &model, &folder, start, &interrupt, |record| progress.step(record));
     progress.end();
     let again = command(arguments, &out);
-    let RunReport { outcome, findings } = report.map_err(|error| {
+    let RunReport { outcome, findings, certified } = report.map_err(|error| {
         Failure::internal(format!(
             "{error}\n  = help: the steps before are kept; once this is put right, go on by\n    {again}"
         ))
     })?;
     if !arguments.quiet {
         findings.iter().filter(|finding| finding.warns()).for_each(warn);
+        if scene.solution.certify {
+            say(&table(&certified))?;
+        }
         let state = scene::status_name(&outcome.status);
         let (steps, iterations, cuts) = (outcome.steps, outcome.iterations, outcome.cuts);
         say(&format!("{state}: {steps} steps, {iterations} iterations, {cuts} cuts; results in {}\n", out.display()))?;

@@ -6,6 +6,7 @@ use crate::math::{Triplets, Vec2};
 use super::integration::QuadraturePoint;
 use super::interface::{ContactStatus, InterfaceForces, InterfaceTrial, Tangent};
 use super::kinematics::{SLOTS, Slots};
+use super::loaded::{LoadedInterface, SiteKinematics};
 use super::point::{Curves, PointState, congruence};
 use super::sites::SiteState;
 
@@ -82,6 +83,38 @@ impl Assembly<'_> {
         }
         self.record(&mut out);
         out
+    }
+
+    /// Forces, their derivative at fixed site forces, and the sites, whatever these carry.
+    pub fn loaded(&self, trial: &InterfaceTrial) -> LoadedInterface {
+        let nodes = trial.at.nonmortar.len() + trial.at.mortar.len();
+        let mut out = InterfaceForces { forces: vec![Point::zeros(); nodes], ..Default::default() };
+        let loads = self.point_loads();
+        self.add_forces(&loads, trial, &mut out);
+        self.add_geometric_tangent(&loads, &mut out.tangent);
+        let mut row = Row::new(2 * nodes);
+        let sites = self.sites.iter().map(|state| self.kinematics(state, &mut row)).collect();
+        LoadedInterface { forces: out.forces, geometric: out.tangent, sites }
+    }
+
+    fn kinematics(&self, state: &SiteState, row: &mut Row) -> SiteKinematics {
+        let rows = self.rows(state, row);
+        let mean = |row: Vec<(usize, f64)>| row.into_iter().map(|(i, v)| (i, v / state.weight)).collect();
+        SiteKinematics {
+            arc: state.arc,
+            position: state.position,
+            weight: state.weight,
+            gap: state.gap,
+            slip: state.slip,
+            stretch: state.stretch,
+            r: state.r,
+            reads: state.site.reads.clone(),
+            deflection: state.old[0],
+            old: state.answer.variables.clone(),
+            load: [state.answer.p, state.answer.q],
+            gap_row: mean(rows.virtual_gap),
+            slip_row: mean(rows.virtual_slip),
+        }
     }
 
     /// Pressure and traction (times weight) that the sites put on each quadrature point.

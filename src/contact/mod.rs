@@ -5,6 +5,7 @@ mod complementarity;
 mod integration;
 mod interface;
 mod kinematics;
+mod loaded;
 mod mortar;
 mod point;
 mod projection;
@@ -18,5 +19,6 @@ pub use interface::{
     Projection, SiteMemory, SiteRecord, Sites, Tangent,
 };
 pub use kinematics::{Frame, Orientation, SLOTS, SlotMatrix, Slots};
+pub use loaded::{LoadedInterface, SiteKinematics, SiteLoad, SiteRow};
 pub use mortar::{Mortar, Numerics};
 pub use projection::{Partner, Seeker, Target};

@@ -18,7 +18,7 @@ use crate::geometry::{Basis, Curve};
 use crate::math::{GaussRule, gauss};
 
 use super::assembly::Assembly;
-use super::complementarity::{SiteInput, complementarity};
+use super::complementarity::{SiteAnswer, SiteInput, complementarity};
 use super::integration::{EdgeFunctions, QuadraturePoint, mortar_cuts};
 use super::interface::{
     Configuration, ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial,
@@ -123,13 +123,14 @@ impl Mortar {
         points.iter().map(|p| target.project(&seeker(&self.nonmortar, &p.shape, at.nonmortar))).collect()
     }
 
+    /// A site with its group evaluated; `conditions` says what it carries.
     fn evaluate_site(
         &self,
         site: Site,
-        (index, sites): (usize, usize),
-        points: &[QuadraturePoint],
-        states: &[Option<PointState>],
+        number: (usize, usize),
+        (points, states): (&[QuadraturePoint], &[Option<PointState>]),
         (start, trial, tangent): (&InterfaceStart, &InterfaceTrial, Tangent),
+        conditions: impl FnOnce(&SiteInput, f64) -> SiteAnswer,
     ) -> SiteState {
         let (mut weight, mut gap, mut slip, mut stretch, mut r) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let mut position = [0.0; 2];
@@ -151,7 +152,7 @@ impl Mortar {
         let (p, q) = (read(trial.pressure), if self.rubs() { read(trial.traction) } else { 0.0 });
         let r = [r * self.numerics.r, r * self.numerics.r_tangential];
         let arc = site.group.iter().map(|&(i, c)| c / full * points[i].arc).sum();
-        let memory = recall(start.sites, index, sites, arc);
+        let memory = recall(start.sites, |m| m.arc, number, arc);
         let input = SiteInput {
             p,
             q,
@@ -167,11 +168,12 @@ impl Mortar {
             lagged: tangent == Tangent::Lagged,
             old: memory.map_or(&self.variables, |m| &m.variables),
         };
-        let answer = complementarity(self.law.as_deref(), &input);
+        let answer = conditions(&input, arc);
         let none = if has_partner { 0.0 } else { f64::NAN };
         SiteState {
             weight: if has_partner { weight } else { full },
             arc,
+            position: input.position,
             old: memory.map_or([0.0; 3], |m| [m.deflection, m.traction, m.closure]),
             closure: if has_partner { p - r[0] * input.gap } else { 0.0 },
             gap: input.gap + none,
@@ -187,6 +189,47 @@ impl Mortar {
 }
 
 impl Mortar {
+    /// All that a trial state says of the pair, the sites under the given conditions.
+    pub(super) fn assembled<R>(
+        &self,
+        step: (&InterfaceStart, &InterfaceTrial, Tangent),
+        conditions: impl Fn(&SiteInput, f64, (usize, usize)) -> SiteAnswer,
+        take: impl FnOnce(Assembly) -> R,
+    ) -> R {
+        let (start, trial, tangent) = step;
+        let curves = Curves {
+            nonmortar: &self.nonmortar,
+            mortar: &self.mortar,
+            orientation: self.orientation,
+            rule: &self.path_rule,
+        };
+        let segments = match self.numerics.integration {
+            Integration::Element => None,
+            Integration::Segment => {
+                let cuts = mortar_cuts(&self.nonmortar, &self.mortar, &trial.at, self.numerics.projection, self.reach);
+                let functions = EdgeFunctions { curve: &self.nonmortar, multiplier: self.multiplier.as_deref() };
+                Some(functions.points(&self.rule, &cuts))
+            }
+        };
+        let points = segments.as_deref().unwrap_or(&self.points);
+        let find = || self.partners(points, &start.at);
+        let old = if segments.is_some() { find() } else { self.start.at(&start.at, find) };
+        let new = Target::new(&self.mortar, trial.at.mortar, self.numerics.projection, self.reach);
+        let state = |(p, was): (&_, &Option<_>)| {
+            curves.point(p, (was.as_ref(), start), (&new, trial), tangent != Tangent::None)
+        };
+        let states: Vec<Option<PointState>> = points.iter().zip(&*old).map(state).collect();
+        let sites = group(points, self.numerics.sites, self.multipliers());
+        let count = sites.len();
+        let evaluate = |(index, site)| {
+            let conditions = |input: &SiteInput, arc| conditions(input, arc, (index, count));
+            self.evaluate_site(site, (index, count), (points, &states), step, conditions)
+        };
+        let sites: Vec<SiteState> = sites.into_iter().enumerate().map(evaluate).collect();
+        let multipliers = self.multipliers();
+        take(Assembly { curves, points, states: &states, sites: &sites, multipliers, rubs: self.rubs() })
+    }
+
     /// What the law was asked at the closed sites, with the internal variables at the start of the step.
     fn asked<'a>(
         &'a self,
@@ -196,7 +239,7 @@ impl Mortar {
     ) -> impl Iterator<Item = (InterfacePoint, &'a [f64])> {
         let closed = found.sites.iter().enumerate().filter(|(_, site)| site.status != ContactStatus::Open);
         closed.map(move |(index, site)| {
-            let memory = recall(memory, index, found.sites.len(), site.arc);
+            let memory = recall(memory, |m| m.arc, (index, found.sites.len()), site.arc);
             let old = memory.map_or(&self.variables, |m| &m.variables);
             let position = [site.x.x, site.x.y];
             (InterfacePoint { position, ..InterfacePoint::new(site.pressure, site.slip, dt) }, old.as_slice())
@@ -236,37 +279,7 @@ impl ContactDiscretization for Mortar {
     }
 
     fn evaluate(&self, start: &InterfaceStart, trial: &InterfaceTrial, tangent: Tangent) -> InterfaceForces {
-        let curves = Curves {
-            nonmortar: &self.nonmortar,
-            mortar: &self.mortar,
-            orientation: self.orientation,
-            rule: &self.path_rule,
-        };
-        let segments = match self.numerics.integration {
-            Integration::Element => None,
-            Integration::Segment => {
-                let cuts = mortar_cuts(&self.nonmortar, &self.mortar, &trial.at, self.numerics.projection, self.reach);
-                let functions = EdgeFunctions { curve: &self.nonmortar, multiplier: self.multiplier.as_deref() };
-                Some(functions.points(&self.rule, &cuts))
-            }
-        };
-        let points = segments.as_deref().unwrap_or(&self.points);
-        let find = || self.partners(points, &start.at);
-        let old = if segments.is_some() { find() } else { self.start.at(&start.at, find) };
-        let new = Target::new(&self.mortar, trial.at.mortar, self.numerics.projection, self.reach);
-        let state = |(p, was): (&_, &Option<_>)| {
-            curves.point(p, (was.as_ref(), start), (&new, trial), tangent != Tangent::None)
-        };
-        let states: Vec<Option<PointState>> = points.iter().zip(&*old).map(state).collect();
-        let sites = group(points, self.numerics.sites, self.multipliers());
-        let count = sites.len();
-        let sites: Vec<SiteState> = sites
-            .into_iter()
-            .enumerate()
-            .map(|(index, site)| self.evaluate_site(site, (index, count), points, &states, (start, trial, tangent)))
-            .collect();
-        let multipliers = self.multipliers();
-        Assembly { curves, points, states: &states, sites: &sites, multipliers, rubs: self.rubs() }
-            .forces(trial, tangent)
+        let conditions = |site: &SiteInput, _, _| complementarity(self.law.as_deref(), site);
+        self.assembled((start, trial, tangent), conditions, |found| found.forces(trial, tangent))
     }
 }

@@ -23,6 +23,8 @@ pub struct SiteState {
     pub weight: f64,
     /// Reference arc length.
     pub arc: f64,
+    /// Position of its points, averaged.
+    pub position: [f64; 2],
     /// Deflection, traction and closure at the start of the step.
     pub old: [f64; 3],
     /// See [`SiteMemory::closure`].
@@ -56,12 +58,12 @@ pub fn group(points: &[QuadraturePoint], kind: Sites, multipliers: usize) -> Vec
     }
 }
 
-/// Memory of a site: by its number while there are as many sites as before, else of the nearest one along the edge.
-pub fn recall(memory: &[SiteMemory], index: usize, sites: usize, arc: f64) -> Option<&SiteMemory> {
-    if memory.len() == sites {
-        return memory.get(index);
+/// What was kept of a site: by its number while there are as many sites as before, else of the nearest one along the edge.
+pub fn recall<T>(kept: &[T], place: impl Fn(&T) -> f64, (index, sites): (usize, usize), arc: f64) -> Option<&T> {
+    if kept.len() == sites {
+        return kept.get(index);
     }
-    memory.iter().min_by(|a, b| (a.arc - arc).abs().total_cmp(&(b.arc - arc).abs()))
+    kept.iter().min_by(|a, b| (place(a) - arc).abs().total_cmp(&(place(b) - arc).abs()))
 }
 
 impl SiteState {

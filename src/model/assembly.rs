@@ -46,26 +46,8 @@ impl Evaluation {
 
 /// Evaluates a trial state for a step that starts at `start`. `None` where a body is turned inside out (`det F <= 0`).
 pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -> Option<Evaluation> {
-    let mut forces = vec![Point::zeros(); model.nodes()];
     let wanted = tangent != Tangent::None;
-    let mut values = if wanted { model.equations.constant.clone() } else { vec![] };
-    values.resize(if wanted { model.equations.pattern.rows.len() } else { 0 }, 0.0);
-    let mut strain_energy = 0.0;
-    for (k, body) in model.bodies.iter().enumerate() {
-        if let BodyKind::Deformable { elements, material, .. } = &body.kind {
-            let scatter = &model.equations.scatter[k];
-            let stiffness = wanted && !material.linear();
-            strain_energy +=
-                elements.integrate(material.as_ref(), &trial.u[body.nodes()], stiffness, |e, element| {
-                    for (&a, f) in element.nodes.iter().zip(element.forces) {
-                        forces[body.offset + a] += f;
-                    }
-                    if stiffness {
-                        scatter.add(e, element.stiffness, &mut values);
-                    }
-                })?;
-        }
-    }
+    let Bulk { mut forces, stiffness, strain_energy } = bulk(model, &trial.u, wanted)?;
     let mut force_scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.amax()));
     let interfaces = interfaces(model, start, trial, tangent);
     let mut residual = residual(model, &forces, trial.time);
@@ -76,14 +58,51 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -
             force_scale = force_scale.max(f.amax());
         }
     }
-    let mut bulk = SparseMatrix { pattern: model.equations.pattern.clone(), values };
-    if wanted {
-        bulk.mirror();
-    }
     let interface = || interface_entries(model, &interfaces);
-    let system =
-        wanted.then(|| System { n: model.unknowns(), bulk, interface: interface(), boundary: model.boundary.clone() });
+    let system = stiffness.map(|bulk| System {
+        n: model.unknowns(),
+        bulk,
+        interface: interface(),
+        boundary: model.boundary.clone(),
+    });
     Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale })
+}
+
+/// The bodies by themselves.
+pub(super) struct Bulk {
+    /// Internal force at every control point.
+    pub forces: Vec<Point>,
+    /// Stiffness, where asked for.
+    pub stiffness: Option<SparseMatrix>,
+    pub strain_energy: f64,
+}
+
+/// Evaluates all bodies at the displacements `u`; `None` where one is turned inside out.
+pub(super) fn bulk(model: &Model, u: &[Point], wanted: bool) -> Option<Bulk> {
+    let mut forces = vec![Point::zeros(); model.nodes()];
+    let mut values = if wanted { model.equations.constant.clone() } else { vec![] };
+    values.resize(if wanted { model.equations.pattern.rows.len() } else { 0 }, 0.0);
+    let mut strain_energy = 0.0;
+    for (k, body) in model.bodies.iter().enumerate() {
+        if let BodyKind::Deformable { elements, material, .. } = &body.kind {
+            let scatter = &model.equations.scatter[k];
+            let stiffness = wanted && !material.linear();
+            strain_energy += elements.integrate(material.as_ref(), &u[body.nodes()], stiffness, |e, element| {
+                for (&a, f) in element.nodes.iter().zip(element.forces) {
+                    forces[body.offset + a] += f;
+                }
+                if stiffness {
+                    scatter.add(e, element.stiffness, &mut values);
+                }
+            })?;
+        }
+    }
+    let stiffness = wanted.then(|| {
+        let mut stiffness = SparseMatrix { pattern: model.equations.pattern.clone(), values };
+        stiffness.mirror();
+        stiffness
+    });
+    Some(Bulk { forces, stiffness, strain_energy })
 }
 
 /// Longest step that the laws of all pairs accept at the end of the step found; infinite without opinion.
@@ -104,27 +123,35 @@ pub(super) fn interfaces(model: &Model, start: &State, trial: &State, tangent: T
 }
 
 fn interface(model: &Model, pair: &Pair, k: usize, start: &State, trial: &State, tangent: Tangent) -> InterfaceForces {
-    let place = |side: &Side, state: &State| -> Vec<Point> {
+    at_contact(model, pair, [&start.u, &trial.u], |old, new| {
+        let from = InterfaceStart { at: old, sites: &start.pairs[k].sites };
+        let to = InterfaceTrial {
+            at: new,
+            pressure: &trial.pairs[k].pressure,
+            traction: &trial.pairs[k].traction,
+            dt: trial.time - start.time,
+        };
+        pair.contact.evaluate(&from, &to, tangent)
+    })
+}
+
+/// Places the curves of a pair by displacements at the start and at the end of a step.
+pub(super) fn at_contact<R>(
+    model: &Model,
+    pair: &Pair,
+    u: [&[Point]; 2],
+    take: impl FnOnce(Configuration, Configuration) -> R,
+) -> R {
+    let place = |side: &Side, u: &[Point]| -> Vec<Point> {
         let body = &model.bodies[side.body];
-        side.nodes.iter().map(|&i| body.points[i - body.offset] + state.u[i]).collect()
+        side.nodes.iter().map(|&i| body.points[i - body.offset] + u[i]).collect()
     };
-    let [old_nonmortar, nonmortar] = [start, trial].map(|s| place(&pair.nonmortar, s));
-    let [old_mortar, mortar] = [start, trial].map(|s| place(&pair.mortar, s));
-    let from = InterfaceStart {
-        at: Configuration { nonmortar: &old_nonmortar, mortar: &old_mortar },
-        sites: &start.pairs[k].sites,
-    };
-    let to = InterfaceTrial {
-        at: Configuration { nonmortar: &nonmortar, mortar: &mortar },
-        pressure: &trial.pairs[k].pressure,
-        traction: &trial.pairs[k].traction,
-        dt: trial.time - start.time,
-    };
-    pair.contact.evaluate(&from, &to, tangent)
+    let [(a, b), (c, d)] = u.map(|u| (place(&pair.nonmortar, u), place(&pair.mortar, u)));
+    take(Configuration { nonmortar: &a, mortar: &b }, Configuration { nonmortar: &c, mortar: &d })
 }
 
 /// Nodal forces less the loads, at the equations.
-fn residual(model: &Model, forces: &[Point], time: f64) -> Vec<f64> {
+pub(super) fn residual(model: &Model, forces: &[Point], time: f64) -> Vec<f64> {
     let mut residual = vec![0.0; model.unknowns()];
     for (node, f) in forces.iter().enumerate() {
         for c in 0..2 {

@@ -6,6 +6,7 @@ mod build;
 mod drag;
 mod equations;
 mod linearised;
+mod loaded;
 mod motion;
 mod record;
 mod state;
@@ -17,8 +18,9 @@ pub use build::{BodySpec, Builder, ModelError, PairSpec};
 pub use drag::Drag;
 pub use equations::{Dof, Equations};
 pub use linearised::Linearised;
+pub use loaded::{Loaded, load};
 pub use motion::{Control, Motion, Table};
-pub use record::{InterfaceRow, Record, interface_rows, record};
+pub use record::{InterfaceRow, Record, interface_rows, record, resistance};
 pub use state::{Ledger, PairState, State, Trend};
 
 use std::sync::Arc;

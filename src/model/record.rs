@@ -155,6 +155,13 @@ pub fn record(model: &Model, state: &State, evaluation: &Evaluation) -> Record {
     }
 }
 
+/// Resistance and support of the driven body, signed as in [`Record::force`], from forces at all control points (internal-force
+/// sign): in equilibrium those of contact alone come to the reaction of its drives.
+pub fn resistance(model: &Model, forces: &[Vec2]) -> [f64; 2] {
+    let sum: Vec2 = model.bodies[model.driven].nodes().map(|i| forces[i]).sum();
+    [sum.x, -upward(model) * sum.y]
+}
+
 /// Forces of every motion at a state: reaction of a displacement, or the applied force.
 pub(super) fn motion_forces(model: &Model, evaluation: &Evaluation) -> Vec<f64> {
     model.motions.iter().map(|m| m.nodes.iter().map(|&i| evaluation.forces[i][m.component]).sum()).collect()
@@ -200,7 +207,8 @@ fn contact_length(evaluation: &Evaluation) -> f64 {
     let closed = |i: &InterfaceForces| -> f64 {
         i.sites.iter().filter(|s| s.status != ContactStatus::Open).map(|s| s.weight).sum()
     };
-    evaluation.interfaces.iter().map(closed).sum()
+    // an empty sum is -0
+    evaluation.interfaces.iter().map(closed).sum::<f64>() + 0.0
 }
 
 fn fully_slipping(evaluation: &Evaluation) -> bool {

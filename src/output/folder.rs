@@ -58,6 +58,11 @@ impl RunFolder {
         self.root.join("interface.csv")
     }
 
+    /// Path of `certify.csv`.
+    pub fn certify(&self) -> PathBuf {
+        self.root.join("certify.csv")
+    }
+
     /// Path of `run.json`.
     pub fn run_json(&self) -> PathBuf {
         self.root.join("run.json")

@@ -7,6 +7,7 @@
 //! [`Scene`] is plain data with all defaults filled in; a program may as well make one itself, and `build` either kind.
 
 mod build;
+mod certify;
 mod checkpoint;
 mod describe;
 mod fields;

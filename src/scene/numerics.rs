@@ -103,6 +103,8 @@ pub struct Solution {
     pub solver: Solver,
     /// How a Newton iteration treats contact. The solution does not depend on it.
     pub strategy: Strategy,
+    /// Solve every accepted step a second time by the conic method and compare (`run --certify` and `asperity certify` set it).
+    pub certify: bool,
 }
 
 /// Solver of the linear systems. The solution does not depend on it.

@@ -157,7 +157,7 @@ fn due(step: usize, every: usize) -> bool {
     every > 0 && step.is_multiple_of(every)
 }
 
-fn labels(units: &Units) -> UnitLabels {
+pub(super) fn labels(units: &Units) -> UnitLabels {
     UnitLabels { length: units.length.clone(), stress: units.stress.clone(), time: units.time.clone() }
 }
 

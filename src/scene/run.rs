@@ -1,5 +1,6 @@
 //! A scene computed into a folder: march, record, draw, and say in `run.json` how it went.
 
+use std::cell::RefCell;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
@@ -8,10 +9,13 @@ use serde_json::{Map, Value, json};
 use crate::contact::ContactDiscretization;
 use crate::math::Counters;
 use crate::model::{Body, Model, Pair, Record};
+use crate::output::tables::CertifyRow;
 use crate::output::{OutputError, RunFolder, checkpoint};
-use crate::solve::{Control, Outcome, Status, proceed};
+use crate::solve::{Control, Outcome, Status, Tools, proceed};
+use crate::verify::conic::{Companion, Stage};
 use crate::verify::{Finding, step_warnings};
 
+use super::certify::{self, Certifier};
 use super::checkpoint::Checkpoint;
 use super::describe::{left_out, modelled};
 use super::recorder::Recorder;
@@ -28,6 +32,8 @@ pub struct RunReport {
     pub outcome: Outcome,
     /// Audits of all records, also of a march that ended early.
     pub findings: Vec<Finding>,
+    /// Accepted steps that were certified.
+    pub certified: Vec<CertifyRow>,
 }
 
 /// The nominal steps of a scene.
@@ -79,9 +85,15 @@ pub fn resume(
     let mut recorder = Recorder::open(scene, model, folder, at.step())?;
     let mut solver = scene.solution.solver.create();
     solver.recall(at.solver.clone());
+    let mut certifier = Certifier::new(scene, folder, at.step())?;
+    let fresh = RefCell::default();
+    let mut companion =
+        Companion { certified: scene.solution.certify.then_some(&fresh), interrupt, stage: Stage::default() };
+    let tools = Tools { solver: solver.as_mut(), witness: &mut companion };
     let mut synced = Instant::now();
-    let outcome = proceed(model, at.outcome.clone(), &plan, solver.as_mut(), interrupt, |report| {
+    let outcome = proceed(model, at.outcome.clone(), &plan, tools, interrupt, |report| {
         recorder.step(&report)?;
+        certifier.take(report.record.step, fresh.take())?;
         at.take(&report, wall_s());
         let sync = synced.elapsed() >= SYNC_EVERY;
         if sync {
@@ -92,9 +104,13 @@ pub fn resume(
         watch(&report.record);
         Ok::<(), OutputError>(())
     })?;
+    certifier.take(at.step() + 1, fresh.take())?;
     recorder.finish(scene)?;
     recorder.sync()?;
-    let report = RunReport { outcome, findings: at.findings() };
+    certifier.draw(scene)?;
+    let mut findings = at.findings();
+    findings.extend(certifier.findings());
+    let report = RunReport { outcome, findings, certified: certifier.rows };
     warnings.extend(report.findings.iter().filter(|finding| finding.warns()).map(Finding::to_string));
     let result = conclusion(&report, &solver.counters(), at.step(), wall_s());
     folder.write_run(&summary(scene, model, &warnings, result))?;
@@ -111,11 +127,13 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "counters": {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": solver.factorisations,
-            "lagged_steps": outcome.lagged, "snaps": outcome.snaps, "analyses": solver.analyses, "dense_rows": solver.dense_rows,
+            "lagged_steps": outcome.lagged, "rescued_steps": outcome.rescued, "snaps": outcome.snaps,
+            "analyses": solver.analyses, "dense_rows": solver.dense_rows,
         },
         "sparse_lu_instead": {
             "indefinite": solver.indefinite, "coupled": solver.coupled, "inaccurate": solver.inaccurate,
         },
+        "certified": certify::summary(&report.certified),
         "audit": {
             "passed": !report.findings.iter().any(Finding::failed),
             "checks": report.findings,

@@ -10,8 +10,9 @@ use crate::model::{
 
 use super::Strategy;
 use super::crossing::cross;
-use super::newton::{NewtonReport, StepFailure, solve_dragged, solve_step};
+use super::newton::{NewtonReport, Step, StepFailure, solve_dragged, solve_step};
 use super::status::{Outcome, Status};
+use super::witness::{Effort, Witness};
 
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
@@ -66,7 +67,15 @@ pub fn march<E>(
     interrupt: &AtomicBool,
     report: impl FnMut(StepReport) -> Result<(), E>,
 ) -> Result<Outcome, E> {
-    proceed(model, Outcome::at(start), control, solver, interrupt, report)
+    proceed(model, Outcome::at(start), control, Tools { solver, witness: &mut () }, interrupt, report)
+}
+
+/// What a march works with.
+pub struct Tools<'a> {
+    /// Solver of the linear systems.
+    pub solver: &'a mut dyn LinearSolver,
+    /// Its companion.
+    pub witness: &'a mut dyn Witness,
 }
 
 /// Goes on from the end of a nominal step, bit for bit like the march that reported it; the solver must recall what that of
@@ -78,7 +87,7 @@ pub fn proceed<E>(
     model: &Model,
     from: Outcome,
     control: &Control,
-    solver: &mut dyn LinearSolver,
+    tools: Tools,
     interrupt: &AtomicBool,
     mut report: impl FnMut(StepReport) -> Result<(), E>,
 ) -> Result<Outcome, E> {
@@ -88,7 +97,7 @@ pub fn proceed<E>(
     let mut march = March {
         model,
         strategy: control.strategy,
-        solver,
+        tools,
         interrupt,
         nominal,
         smallest,
@@ -112,7 +121,7 @@ pub fn proceed<E>(
                     weakening: found.weakening,
                     ..record(model, &outcome.state, &found.evaluation)
                 };
-                let (state, evaluation, solver) = (&outcome.state, &found.evaluation, &*march.solver);
+                let (state, evaluation, solver) = (&outcome.state, &found.evaluation, &*march.tools.solver);
                 report(StepReport { state, evaluation, record, outcome, solver })?;
             }
             Err(status) => {
@@ -139,10 +148,10 @@ fn within_stride(model: &Model, time: f64, wanted: f64) -> Option<f64> {
 }
 
 /// A march under way.
-struct March<'a> {
+struct March<'a, 't> {
     model: &'a Model,
     strategy: Strategy,
-    solver: &'a mut dyn LinearSolver,
+    tools: Tools<'t>,
     interrupt: &'a AtomicBool,
     nominal: f64,
     smallest: f64,
@@ -160,7 +169,7 @@ struct Reached {
     weakening: f64,
 }
 
-impl March<'_> {
+impl March<'_, '_> {
     /// Sub-steps up to `target`.
     fn reach(&mut self, target: f64) -> Result<Reached, Status> {
         let mut weakening = 0.0_f64;
@@ -208,15 +217,22 @@ impl March<'_> {
 
     /// One step; accepted unless the law finds it too long.
     fn step(&mut self, next: f64) -> Result<NewtonReport, StepFailure> {
-        let (start, iterations) = (&self.outcome.state, &mut self.outcome.iterations);
-        let mut done = solve_step(self.model, start, next, self.strategy, self.solver, self.interrupt, iterations)?;
-        let dt = next - start.time;
+        let (clock, before) = (Instant::now(), self.outcome.iterations);
+        let start = &self.outcome.state;
+        let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);
+        let found = solve_step(self.model, start, next, self.strategy, solver, self.interrupt, iterations);
+        let rescued = found.is_err();
+        let mut done = found.or_else(|failure| self.rescue(next, failure))?;
+        let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
         let law = suggested_step(self.model, start, &done.evaluation, dt);
         if law < VETO * dt {
             return Err(StepFailure::Vetoed { taken: dt, step: law });
         }
+        let effort = Effort { iterations: self.outcome.iterations - before, wall_s: clock.elapsed().as_secs_f64() };
+        self.tools.witness.accepted(self.model, start, &done, effort);
         self.outcome.steps += 1;
         self.outcome.lagged += usize::from(done.lagged);
+        self.outcome.rescued += usize::from(rescued);
         let (hard, double) = (done.iterations > HARD, 2.0 * self.outcome.dt);
         self.outcome.dt = if hard { (0.5 * dt).max(self.smallest) } else { double.min(self.nominal) };
         self.outcome.law = law;
@@ -225,11 +241,32 @@ impl March<'_> {
         Ok(done)
     }
 
+    /// Asks the companion for another way to a step that failed.
+    fn rescue(&mut self, next: f64, failure: StepFailure) -> Result<NewtonReport, StepFailure> {
+        let Outcome { state: start, iterations, .. } = &mut self.outcome;
+        // Once in a row of cuts: where it does not help, there may be no equilibrium.
+        let asked = failure.lost() && self.failures == 0;
+        let guess = asked.then(|| self.tools.witness.rescue(self.model, start, next, self.interrupt)).flatten();
+        let Some(guess) = guess else { return Err(failure) };
+        let (model, strategy, interrupt) = (self.model, self.strategy, self.interrupt);
+        let mut step = Step {
+            model,
+            start,
+            strategy,
+            solver: self.tools.solver,
+            interrupt,
+            iterations,
+            weakens: false,
+            drag: None,
+        };
+        step.attempt(guess).map_err(|_| failure)
+    }
+
     /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach.
     fn cross(&mut self, until: f64) -> bool {
         let (model, start, interrupt) = (self.model, &self.outcome.state, self.interrupt);
         let drag = self.drag.get_or_insert_with(|| Drag::new(model));
-        let (solver, iterations) = (&mut *self.solver, &mut self.outcome.iterations);
+        let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);
         let solve = |from: &State, time, strength| {
             solve_dragged(model, from, time, (drag, strength), solver, interrupt, iterations)
         };

@@ -9,9 +9,11 @@ mod newton;
 mod predictor;
 mod status;
 pub mod weakening;
+mod witness;
 
 pub use interface_loop::Strategy;
-pub use march::{Control, StepReport, march, proceed};
+pub use march::{Control, StepReport, Tools, march, proceed};
 pub use newton::{NewtonReport, StepFailure, solve_step};
 pub use predictor::predict;
 pub use status::{Outcome, Status};
+pub use witness::{Effort, Witness};

@@ -138,23 +138,23 @@ pub fn solve_dragged(
 }
 
 /// A step being solved.
-struct Step<'a> {
-    model: &'a Model,
-    start: &'a State,
-    strategy: Strategy,
-    solver: &'a mut dyn LinearSolver,
-    interrupt: &'a AtomicBool,
-    iterations: &'a mut usize,
+pub(super) struct Step<'a> {
+    pub model: &'a Model,
+    pub start: &'a State,
+    pub strategy: Strategy,
+    pub solver: &'a mut dyn LinearSolver,
+    pub interrupt: &'a AtomicBool,
+    pub iterations: &'a mut usize,
     /// Whether friction fell with the slip rate at some iterate.
-    weakens: bool,
+    pub weakens: bool,
     /// Drag with its strength.
-    drag: Option<(&'a Drag, f64)>,
+    pub drag: Option<(&'a Drag, f64)>,
 }
 
 impl Step<'_> {
     /// From one guess: with the exact tangent, then, for a law that weakens, with lagged bound where that failed or found
     /// an unstable equilibrium.
-    fn attempt(&mut self, guess: State) -> Result<NewtonReport, StepFailure> {
+    pub fn attempt(&mut self, guess: State) -> Result<NewtonReport, StepFailure> {
         let exact = self.newton(guess.clone(), Linearisation::exact());
         let stable = exact.as_ref().is_ok_and(|found| found.weakening < 1.0);
         if stable || !self.weakens || matches!(exact, Err(StepFailure::Interrupted)) {

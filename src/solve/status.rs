@@ -38,6 +38,8 @@ pub struct Outcome {
     pub cuts: usize,
     /// Steps that only a lagged bound reached: friction falls with the slip rate, see [`super::weakening`].
     pub lagged: usize,
+    /// Steps that only the conic method reached, see [`super::Witness`].
+    pub rescued: usize,
     /// Snaps that were crossed, see `solve::crossing`.
     pub snaps: usize,
     /// Length of the step to be tried next; remembered from one nominal step to the next.
@@ -50,6 +52,17 @@ impl Outcome {
     /// Nothing done yet.
     pub fn at(state: State) -> Self {
         let any = f64::INFINITY;
-        Self { status: Status::Done, state, iterations: 0, steps: 0, cuts: 0, lagged: 0, snaps: 0, dt: any, law: any }
+        Self {
+            status: Status::Done,
+            state,
+            iterations: 0,
+            steps: 0,
+            cuts: 0,
+            lagged: 0,
+            rescued: 0,
+            snaps: 0,
+            dt: any,
+            law: any,
+        }
     }
 }

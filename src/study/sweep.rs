@@ -123,7 +123,7 @@ fn computed(
 }
 
 /// State of a run that is over, and why it is not done.
-fn ending(RunReport { outcome, findings }: &RunReport) -> (PointState, String) {
+fn ending(RunReport { outcome, findings, .. }: &RunReport) -> (PointState, String) {
     let failed: Vec<String> = findings.iter().filter(|f| f.failed()).map(Finding::to_string).collect();
     match &outcome.status {
         Status::Done if failed.is_empty() => (PointState::Done, String::new()),

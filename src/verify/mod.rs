@@ -1,6 +1,7 @@
 //! Independent checks: of a time plan before it is run, of records once they are there.
 
 mod audit;
+pub mod conic;
 mod criteria;
 mod expectations;
 mod finding;

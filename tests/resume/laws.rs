@@ -8,7 +8,7 @@ use asperity::math::{CondensedSolver, LinearSolver, SolverMemory, SparseLu};
 use asperity::model::{Model, State};
 use asperity::output::checkpoint::{decode, encode};
 use asperity::scene::{Scene, build};
-use asperity::solve::{Control, Outcome, Status, proceed};
+use asperity::solve::{Control, Outcome, Status, Tools, proceed};
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ fn march(model: &Model, solver: &mut dyn LinearSolver, from: Stop) -> Vec<Stop> 
     let (mut stops, quiet) = (vec![], AtomicBool::new(false));
     let control = Control { end: 1.0, steps: 12, max_cuts: 12, strategy: Default::default() };
     solver.recall(from.1);
-    let outcome = proceed(model, from.0, &control, solver, &quiet, |report| {
+    let outcome = proceed(model, from.0, &control, Tools { solver, witness: &mut () }, &quiet, |report| {
         stops.push((report.outcome.clone(), report.solver.memory()));
         Ok::<(), Infallible>(())
     });

@@ -1,4 +1,4 @@
-//! Where the external work went, and what the balance leaves open.
+//! Where the external work went, and what the balance leaves open; energy set free by snaps is drawn where there is any.
 
 use super::axis::range;
 use super::chart::{Chart, Column, Series};
@@ -7,22 +7,28 @@ use super::{Instant, abscissa, marks};
 use crate::model::Record;
 use crate::output::{Quantity, UnitLabels};
 
-/// External work, strain energy and dissipation above, `W - U - D` on its own scale below.
+/// External work, strain energy, dissipation and energy set free by snaps above, `W - U - D - S` on its own scale below.
 pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> String {
     let x = abscissa(records, units);
     let curve = |value: &dyn Fn(&Record) -> f64| -> Vec<[f64; 2]> {
         let value = |record: &Record| if record.converged { value(record) } else { f64::NAN };
         x.values.iter().zip(records).map(|(x, record)| [*x, value(record)]).collect()
     };
-    let parts = vec![
+    let snaps = records.iter().any(|record| record.snap_loss != 0.0);
+    let mut parts = vec![
         Series::new("strain energy *U*", GREEN, curve(&|record| record.strain_energy)).dashed("5 1.6"),
         Series::new("dissipated *D*", VERMILLION, curve(&|record| record.dissipated)).dashed("1.6 1.6"),
         Series::new("external work *W*", BLUE, curve(&|record| record.external_work)),
     ];
-    let open = curve(&|record| record.external_work - record.strain_energy - record.dissipated);
+    if snaps {
+        parts.push(Series::new("set free by snaps *S*", INK, curve(&|record| record.snap_loss)).dashed("3 1.2"));
+    }
+    let used = |record: &Record| record.strain_energy + record.dissipated + record.snap_loss;
+    let open = curve(&|record| record.external_work - used(record));
+    let balance = if snaps { "*W* − *U* − *D* − *S*" } else { "*W* − *U* − *D*" };
     let charts = vec![
         chart(units.axis("energy per depth", Quantity::Energy), 104.0, parts),
-        chart("*W* − *U* − *D*".into(), 44.0, vec![Series { width: 1.0, ..Series::new("", INK, open) }]),
+        chart(balance.into(), 44.0, vec![Series { width: 1.0, ..Series::new("", INK, open) }]),
     ];
     Column { marks: marks(&x, instants), x_range: x.range(), x_label: x.label, charts, ..Column::default() }.draw()
 }

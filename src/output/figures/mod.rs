@@ -7,6 +7,7 @@
 //! | `interface` | pressure and traction along the interface at chosen instants |
 //! | `states` | internal variables of the law over the closed sites: range and mean (laws with memory only) |
 //! | `energy` | external work, strain energy, dissipation, and what the balance leaves open |
+//! | `certify` | differences between Newton and conic solution, and what both cost (certified runs only) |
 //! | `animation` | the bodies sliding, forces below; SVG only, moves in a browser |
 //! | `bodies` | deformed bodies at the same instants, coloured by von Mises stress, with contact pressure and resultant |
 //!
@@ -17,6 +18,7 @@ mod animation;
 mod axis;
 mod bodies;
 mod canvas;
+pub mod certify;
 mod chart;
 mod energy;
 mod forces;
