@@ -8,5 +8,7 @@ mod contrast;
 mod meeting;
 #[path = "extremes/numbers.rs"]
 mod numbers;
+#[path = "extremes/projection.rs"]
+mod projection;
 #[path = "extremes/rates.rs"]
 mod rates;

@@ -10,7 +10,7 @@ use crate::math::Counters;
 use crate::model::{Body, Model, Pair, Record};
 use crate::output::{OutputError, RunFolder, checkpoint};
 use crate::solve::{Control, Outcome, Status, proceed};
-use crate::verify::{Finding, step_warnings};
+use crate::verify::{self, Finding};
 
 use super::checkpoint::Checkpoint;
 use super::describe::{left_out, modelled};
@@ -71,7 +71,7 @@ pub fn resume(
     let (clock, before) = (Instant::now(), at.wall_s());
     let wall_s = || before + clock.elapsed().as_secs_f64();
     let plan = time_plan(scene);
-    let mut warnings = step_warnings(model, &plan);
+    let mut warnings = verify::warnings(model, &plan);
     folder.tidy()?;
     checkpoint::create_folder(&folder.checkpoint())?;
     at.write(folder, false, true)?;

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use asperity::model::{Record, State};
 use asperity::scene::{Scene, build, time_plan};
 use asperity::solve::{Outcome, Status, march};
-use asperity::verify::{Audit, Expectations, Finding};
+use asperity::verify::{Audit, Expectations, Finding, warnings};
 
 const SCENE: &str = r#"
 version = 1
@@ -56,17 +56,25 @@ pub const FLAT: [&str; 3] = [
 /// Pressed down by 0.05 in the first fifth of the time.
 pub const PRESS: &str = "drive.0.y={ displacement = { time = [0.0, 0.2, 1.0], value = [0.0, -0.05, -0.05] } }";
 
+/// Nonmortar and mortar side exchanged.
+pub const SWAP: [&str; 2] = [
+    "contact.0.nonmortar={ body = \"lower\", edge = \"top\" }",
+    "contact.0.mortar={ body = \"upper\", edge = \"bottom\" }",
+];
+
 /// A finished or given up run.
 pub struct Found {
     pub records: Vec<Record>,
     pub outcome: Outcome,
     pub findings: Vec<Finding>,
+    /// What is said before the run.
+    pub warnings: Vec<String>,
 }
 
-/// Runs the scene with these replacements.
-pub fn run(sets: &[&str]) -> Found {
-    let texts: Vec<String> = sets.iter().map(|s| s.to_string()).collect();
-    let (scene, _) = Scene::parse(Path::new("extreme.toml"), SCENE.to_string(), &texts).expect("a valid scene");
+/// Runs a scene with these replacements.
+fn run(text: String, sets: &[&str]) -> Found {
+    let sets: Vec<String> = sets.iter().map(|s| s.to_string()).collect();
+    let (scene, _) = Scene::parse(Path::new("extreme.toml"), text, &sets).expect("a valid scene");
     let model = build(&scene, Path::new(".")).expect("a model");
     let (mut audit, mut records) = (Audit::new(Expectations::of(&model)), vec![]);
     let (plan, quiet, mut solver) = (time_plan(&scene), AtomicBool::new(false), scene.solution.solver.create());
@@ -76,13 +84,25 @@ pub fn run(sets: &[&str]) -> Found {
         Ok::<(), Infallible>(())
     });
     let outcome = outcome.unwrap_or_else(|e| match e {});
-    Found { records, outcome, findings: audit.findings() }
+    Found { records, outcome, findings: audit.findings(), warnings: warnings(&model, &plan) }
 }
 
 /// A run that must reach its end with all audits green.
 pub fn solved(name: &str, sets: &[&str]) -> Found {
-    let found = run(sets);
+    let found = run(SCENE.to_string(), sets);
     found.check(name);
+    found
+}
+
+/// The same with one body rigid.
+pub fn against_rigid(body: &str, sets: &[&str]) -> Found {
+    let held = "[[support]]\nbody = \"lower\"\nedge = \"bottom\"\ndisplacement = { x = 0.0, y = 0.0 }\n";
+    let text = match body {
+        "lower" => SCENE.replace("material = \"low\"", "rigid = true").replace(held, ""),
+        _ => SCENE.replace("material = \"up\"", "rigid = true"),
+    };
+    let found = run(text, sets);
+    found.check(&format!("rigid {body} body"));
     found
 }
 

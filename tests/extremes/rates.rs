@@ -36,19 +36,20 @@ fn laws_with_memory() {
             let coulomb = solved(limit, &[&format!("contact.0.law.friction={limit}")]);
             let change = timed(&format!("lugre, dt = {dt:e}"), law, dt).difference(1.0, &coulomb);
             println!("lugre against mu = {limit}, dt = {dt:e}: {change:.1e}");
+            assert!(change < 1e-2, "dt = {dt:e}: {change:e}");
         }
         timed(&format!("rate and state, dt = {dt:e}"), state, dt);
     }
 }
 
-/// The drive turns round in the middle of a step: the last forces are those of a run whose step ends there, but for the slip that
-/// the step does not see.
+/// The drive turns round inside a step (and would be forgotten by it): what follows is as if a step had ended there, but for the
+/// slip that the step does not see.
 #[test]
 fn reversal_inside_a_step() {
-    let drive = "drive.0.x={ displacement = { time = [0.0, 0.5, 1.0], value = [0.0, 0.7, 0.3] } }";
+    let drive = "drive.0.x={ displacement = { time = [0.0, 0.5, 1.0], value = [0.0, 0.9, 0.5] } }";
     let [inside, at] =
         [25, 24].map(|steps| solved(&format!("{steps} steps"), &[drive, &format!("time.steps={steps}")]));
     let change = [0, 1].map(|c| (inside.last().force[c] - at.last().force[c]).abs() / at.peak(c));
-    println!("reversal inside a step: {change:.1e?}");
-    assert!(inside.last().force[0] < 0.0 && change.iter().all(|c| *c < 0.02), "{change:?}");
+    println!("reversal inside a step: {change:.1?}");
+    assert!(inside.last().contact_length > 0.0 && change.iter().all(|c| *c < 0.02), "{change:?}");
 }
