@@ -173,7 +173,7 @@ impl Volume {
 /// elements in an odd number of blocks. Those that are larger by one lie inside, away from the edges that are in contact.
 fn parts(n: usize, size: usize) -> Vec<std::ops::Range<usize>> {
     let full = (n / size).max(1);
-    let count = full + usize::from(full % 2 == 0 && n % 2 == 1);
+    let count = full + usize::from(full.is_multiple_of(2) && n % 2 == 1);
     let (length, larger, half) = (n / count, n % count, count / 2);
     let is_larger = |k: usize| match k.min(count - 1 - k) {
         pair if pair == half => larger % 2 == 1,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::model::Model;
 use crate::scene::{Scene, build, left_out, modelled, size_lines, time_plan};
-use crate::verify::step_warnings;
+use crate::verify;
 
 use super::SceneArguments;
 use super::outcome::{Exit, Failure, say};
@@ -25,7 +25,7 @@ pub fn check(arguments: &SceneArguments) -> Result<Exit, Failure> {
 }
 
 fn describe(scene: &Scene, model: &Model) -> String {
-    let warnings = step_warnings(model, &time_plan(scene));
+    let warnings = verify::warnings(model, &time_plan(scene));
     let section = |title: &str, lines: &[String]| -> String {
         let lines: String = lines.iter().map(|line| format!("  - {line}\n")).collect();
         format!("{title}\n{lines}")

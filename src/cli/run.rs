@@ -9,7 +9,7 @@ use crate::model::Record;
 use crate::output::RunFolder;
 use crate::scene::{self, RunReport, Scene};
 use crate::solve::Status;
-use crate::verify::{Finding, step_warnings};
+use crate::verify::{self, Finding};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::RunArguments;
@@ -34,7 +34,7 @@ pub fn run(arguments: &RunArguments, certify: bool) -> Result<Exit, Failure> {
     }
     let interrupt = on_interrupt()?;
     if !arguments.quiet {
-        step_warnings(&model, &scene::time_plan(&scene)).iter().for_each(warn);
+        verify::warnings(&model, &scene::time_plan(&scene)).iter().for_each(warn);
     }
     let mut progress = Progress::new(&scene, arguments.quiet);
     let report = scene::resume(&scene, &model, &folder, start, &interrupt, |record| progress.step(record));

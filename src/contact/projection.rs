@@ -101,14 +101,38 @@ impl<'a> Target<'a> {
         (normal.dot(&seeker.normal) < 0.0 && distance < self.reach).then_some(Partner { span, xi, shape })
     }
 
+    /// From the nearest sample, and from every other sample nearer than its neighbours that may lead to a nearer place:
+    /// valleys have two flanks, rough edges many.
     fn closest(&self, seeker: &Seeker) -> Option<Partner> {
         let distance = |s: &Sample| (s.y - seeker.x).norm_squared();
-        let (best, _) = self
-            .samples
-            .iter()
-            .enumerate()
-            .filter(|(_, s)| s.normal.dot(&seeker.normal) < 0.0)
-            .min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))?;
+        let opposes = |s: &Sample| s.normal.dot(&seeker.normal) < 0.0;
+        let all = self.samples.iter().enumerate();
+        let (nearest, _) =
+            all.filter(|(_, s)| opposes(s)).min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))?;
+        let mut best = self.descend(nearest, seeker)?;
+        let mut reached = self.distance(&best, seeker);
+        for (k, near) in self.samples.windows(3).enumerate() {
+            let here = distance(&near[1]);
+            if here > distance(&near[0]) || here > distance(&near[2]) || k + 1 == nearest || !opposes(&near[1]) {
+                continue;
+            }
+            let step = (near[1].y - near[0].y).norm().max((near[2].y - near[1].y).norm());
+            if here.sqrt() - step < reached
+                && let Some(other) = self.descend(k + 1, seeker)
+                && self.distance(&other, seeker) < reached
+            {
+                (reached, best) = (self.distance(&other, seeker), other);
+            }
+        }
+        Some(best)
+    }
+
+    fn distance(&self, partner: &Partner, seeker: &Seeker) -> f64 {
+        (self.curve.place(&partner.shape, 0, self.points) - seeker.x).norm()
+    }
+
+    /// The minimum of the distance next to a sample.
+    fn descend(&self, best: usize, seeker: &Seeker) -> Option<Partner> {
         // f = (x - y).a falls through zero at a minimum of the distance.
         let value = |xi: f64| {
             let shape = self.shape(xi);
@@ -158,7 +182,7 @@ impl<'a> Target<'a> {
             let found = root(oriented, ends[0], ends[1], 0.5 * (pair[0].xi + pair[1].xi))
                 .and_then(|xi| self.partner(xi, seeker));
             if let Some(partner) = found {
-                let distance = (self.curve.place(&partner.shape, 0, self.points) - seeker.x).norm();
+                let distance = self.distance(&partner, seeker);
                 if best.as_ref().is_none_or(|(d, _)| distance < *d) {
                     best = Some((distance, partner));
                 }

@@ -11,7 +11,7 @@ use crate::geometry::{Basis, Curve, Edge, Patch, Point};
 use crate::math::gauss;
 
 use super::body::{Body, BodyKind};
-use super::equations::Equations;
+use super::equations::{Dof, Equations};
 use super::motion::{Control, Motion};
 use super::{Model, Pair, Side};
 
@@ -183,6 +183,10 @@ impl Builder {
             pairs.push(pair);
         }
         let materials = || self.bodies.iter().filter_map(Body::material);
+        let modulus = materials().map(|m| m.youngs_modulus()).fold(f64::INFINITY, f64::min);
+        let confinement = materials().map(|m| confinement(m.as_ref())).fold(1.0, f64::max);
+        let mut stiffness = vec![modulus * confinement; offset];
+        self.bodies.iter().for_each(|body| stiffen(body, &equations, &mut stiffness));
         let driven = self.motions.iter().find(|m| m.drive).map(|m| m.body);
         Ok(Model {
             stride: pairs.iter().flat_map(|p| [&p.nonmortar, &p.mortar]).fold(f64::INFINITY, |m, side| {
@@ -190,8 +194,9 @@ impl Builder {
                 m.min(0.25 * points().zip(points().skip(1)).map(|(a, b)| (b - a).norm()).sum::<f64>())
             }),
             driven: driven.or(pairs.first().map(|p| p.nonmortar.body)).unwrap_or(0),
-            modulus: materials().map(|m| m.youngs_modulus()).fold(f64::INFINITY, f64::min),
-            confinement: materials().map(|m| confinement(m.as_ref())).fold(1.0, f64::max),
+            modulus,
+            confinement,
+            stiffness,
             element_size: if element_size.is_finite() { element_size } else { mean_element(&self.bodies) },
             bodies: self.bodies,
             motions: self.motions,
@@ -222,6 +227,17 @@ impl Builder {
         let contact = Mortar::new(edge, target, spec.law.clone(), spec.multiplier.clone(), numerics, modulus);
         let size = modulus / crate::contact::ContactDiscretization::augmentation(&contact);
         Ok((Pair { nonmortar, mortar, contact: Arc::new(contact), offset }, size))
+    }
+}
+
+/// Raises the stress scale of the equations of a body to its own.
+fn stiffen(body: &Body, equations: &Equations, stiffness: &mut [f64]) {
+    let Some(material) = body.material() else { return };
+    let own = material.youngs_modulus() * confinement(material.as_ref());
+    for dof in equations.dofs[body.nodes()].as_flattened() {
+        if let Dof::Unknown(e) = *dof {
+            stiffness[e] = stiffness[e].max(own);
+        }
     }
 }
 

@@ -81,6 +81,8 @@ pub struct Model {
     /// How much stiffer against changes of volume the bodies are than at a Poisson's ratio of 0.4, at least 1: see
     /// [`confinement`](crate::bulk::confinement).
     pub confinement: f64,
+    /// Stress scale of the body behind each equation, confinement included: what round-off there is measured by.
+    pub stiffness: Vec<f64>,
     /// A quarter of the shortest contact edge: what a driven body may travel in one step without passing through another
     /// unseen.
     pub stride: f64,

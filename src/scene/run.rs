@@ -13,7 +13,7 @@ use crate::output::tables::CertifyRow;
 use crate::output::{OutputError, RunFolder, checkpoint};
 use crate::solve::{Control, Outcome, Status, Tools, proceed};
 use crate::verify::conic::{Companion, Stage};
-use crate::verify::{Finding, step_warnings};
+use crate::verify::{self, Finding};
 
 use super::certify::{self, Certifier};
 use super::checkpoint::Checkpoint;
@@ -77,7 +77,7 @@ pub fn resume(
     let (clock, before) = (Instant::now(), at.wall_s());
     let wall_s = || before + clock.elapsed().as_secs_f64();
     let plan = time_plan(scene);
-    let mut warnings = step_warnings(model, &plan);
+    let mut warnings = verify::warnings(model, &plan);
     folder.tidy()?;
     checkpoint::create_folder(&folder.checkpoint())?;
     at.write(folder, false, true)?;

@@ -4,18 +4,38 @@ use crate::model::{Evaluation, Model};
 
 /// Accepted residual relative to the largest nodal force.
 const RELATIVE: f64 = 1e-9;
-/// Accepted residual relative to `E` times the size of the model: round-off of a translated body. Near incompressibility it
-/// grows with the stiffness against changes of volume.
+/// Round-off of a translated body, relative to its `E` times the size of the model. Near incompressibility it grows with the
+/// stiffness against changes of volume.
 const ROUND_OFF: f64 = 1e-14;
 /// Iterations without a residual below half of the best before, after which the next guess is tried.
 const PATIENCE: usize = 5;
 
 /// True where the residual is as small as is asked for.
 pub fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
-    largest(&evaluation.residual) <= tolerance(model, evaluation)
+    largest(model, evaluation) <= RELATIVE * evaluation.force_scale
 }
 
-/// The residual asked for.
+/// The residual beyond round-off, entry by entry: that of a stiff body may be far above what a soft one bears.
+fn beyond<'a>(model: &'a Model, evaluation: &'a Evaluation) -> impl Iterator<Item = f64> + 'a {
+    let unit = ROUND_OFF * model.size();
+    let entries = evaluation.residual.iter().zip(&model.stiffness);
+    entries.map(move |(r, stiffness)| {
+        let left = r.abs() - unit * stiffness;
+        if left < 0.0 { 0.0 } else { left } // NaN stays
+    })
+}
+
+/// Largest residual beyond round-off; `NaN` if there is one.
+pub fn largest(model: &Model, evaluation: &Evaluation) -> f64 {
+    beyond(model, evaluation).fold(0.0_f64, |m, v| if v.is_nan() || m.is_nan() { f64::NAN } else { m.max(v) })
+}
+
+/// Euclidean norm of the residual beyond round-off.
+pub fn norm(model: &Model, evaluation: &Evaluation) -> f64 {
+    beyond(model, evaluation).map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// The residual asked for of the softest body.
 pub fn tolerance(model: &Model, evaluation: &Evaluation) -> f64 {
     RELATIVE * evaluation.force_scale + ROUND_OFF * model.modulus * model.confinement * model.size()
 }
@@ -33,9 +53,4 @@ pub fn forecast(residuals: &[f64]) -> f64 {
         [.., before, last] => last * (last / before).powi(2),
         _ => f64::INFINITY,
     }
-}
-
-/// Largest magnitude; `NaN` if there is one.
-pub fn largest(residual: &[f64]) -> f64 {
-    residual.iter().fold(0.0_f64, |m, v| if v.is_nan() || m.is_nan() { f64::NAN } else { m.max(v.abs()) })
 }

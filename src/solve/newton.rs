@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::math::{LinearSolver, SolveError};
 use crate::model::{Drag, Evaluation, Linearised, Model, State, Tangent, evaluate, explain};
 
-use super::convergence::{balanced, forecast, largest, stalled, tolerance};
+use super::convergence::{balanced, forecast, largest, norm, stalled, tolerance};
 use super::floating::{hint, support_floating};
 use super::interface_loop::{Strategy, negative, settle};
 use super::predictor::{guesses, predict, trend};
@@ -173,7 +173,7 @@ impl Step<'_> {
         let mut residuals = Vec::new();
         loop {
             let iteration = residuals.len();
-            let size = largest(&evaluation.residual);
+            let size = largest(model, &evaluation);
             residuals.push(size);
             self.weakens |= weakening::weakens(&evaluation);
             if balanced(model, &evaluation) {
@@ -197,7 +197,7 @@ impl Step<'_> {
             way.choose(size / evaluation.force_scale);
             let last = forecast(&residuals) <= tolerance(model, &evaluation);
             (trial, evaluation) = self
-                .update(&trial, &increment, (evaluation.norm(), last), way.tangent)
+                .update(&trial, &increment, (norm(model, &evaluation), last), way.tangent)
                 .ok_or(StepFailure::Inverted(iteration + 1))?;
         }
     }
@@ -250,14 +250,15 @@ impl Step<'_> {
             return Some((full, found));
         }
         let found = self.evaluate(&full, tangent);
-        let mut best = found.as_ref().map(|found| (found.norm(), 1.0));
+        let size = |found: &Evaluation| norm(self.model, found);
+        let mut best = found.as_ref().map(|found| (size(found), 1.0));
         let accepted = |size: f64| tangent == Tangent::Lagged || size <= GROWTH * before;
         if best.is_some_and(|(size, _)| accepted(size)) {
             return Some((full, found?));
         }
         for k in 1..HALVINGS {
             let factor = 0.5_f64.powi(k);
-            if let Some(size) = self.evaluate(&moved(factor), Tangent::None).as_ref().map(Evaluation::norm) {
+            if let Some(size) = self.evaluate(&moved(factor), Tangent::None).as_ref().map(size) {
                 if best.is_none_or(|(smallest, _)| size < smallest) {
                     best = Some((size, factor));
                 }

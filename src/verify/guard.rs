@@ -1,4 +1,4 @@
-//! A look at the time plan before anything is computed: steps that contact cannot follow.
+//! A look at mesh and time plan before anything is computed: edges that cannot be integrated, steps that contact cannot follow.
 
 use crate::model::{Control, Model, Pair};
 use crate::solve;
@@ -9,9 +9,30 @@ const ELEMENTS_PER_STEP: f64 = 2.0;
 /// Round-off of the differences of a table, with a margin.
 const ROUND_OFF: f64 = 1e-9;
 
+/// Share of the length of a contact edge that its integration points may miss.
+const MISSED: f64 = 0.01;
+
+/// All warnings, in words; empty where nothing is wrong.
+pub fn warnings(model: &Model, plan: &solve::Control) -> Vec<String> {
+    let edges = model.pairs.iter().filter_map(|pair| edge_warning(model, pair));
+    edges.chain(step_warnings(model, plan)).collect()
+}
+
+/// Weights far apart crowd the elements: their integration points then miss most of the edge, and of the body behind it.
+fn edge_warning(model: &Model, pair: &Pair) -> Option<String> {
+    let [measured, length] = pair.contact.lengths();
+    let name = &model.bodies[pair.nonmortar.body].name;
+    ((measured / length - 1.0).abs() > MISSED).then(|| {
+        format!(
+            "the contact edge of body {name} is {length:.3e} long, but its integration points measure {measured:.3e}: its weights \
+             crowd the elements, and forces will be wrong by as much; take weights nearer to one another, or more elements"
+        )
+    })
+}
+
 /// Warnings about the motion of bodies in contact, in words; empty where nothing is wrong. Motion by force is not judged:
 /// how far it goes is known afterwards only.
-pub fn step_warnings(model: &Model, plan: &solve::Control) -> Vec<String> {
+fn step_warnings(model: &Model, plan: &solve::Control) -> Vec<String> {
     let reach = model.pairs.iter().map(|pair| reach(model, pair)).fold(f64::INFINITY, f64::min);
     let touching = |body: &usize| model.pairs.iter().any(|pair| [pair.nonmortar.body, pair.mortar.body].contains(body));
     let judged = |body: usize| {

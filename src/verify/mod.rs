@@ -1,4 +1,4 @@
-//! Independent checks: of a time plan before it is run, of records once they are there.
+//! Independent checks: of mesh and time plan before a run, of records once they are there.
 
 mod audit;
 pub mod conic;
@@ -10,4 +10,4 @@ mod guard;
 pub use audit::Audit;
 pub use expectations::Expectations;
 pub use finding::{Finding, Severity};
-pub use guard::step_warnings;
+pub use guard::warnings;

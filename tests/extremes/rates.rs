@@ -1,0 +1,55 @@
+//! Rate laws at steps of 1e-12 to 1e6, and a drive that turns round inside a step.
+
+use crate::bench::{Found, solved};
+
+fn timed(name: &str, law: &str, dt: f64) -> Found {
+    let end = 32.0 * dt;
+    let sets = [
+        format!("contact.0.law={law}"),
+        format!("time.end={end:e}"),
+        format!("drive.0.x={{ displacement = {{ time = [0.0, {end:e}], value = [0.0, 1.6] }} }}"),
+    ];
+    solved(name, &[&sets[0], &sets[1], &sets[2]]).smooth(name)
+}
+
+/// Slip far below and far above the speed of a Stribeck law is Coulomb friction with the static and the kinetic coefficient.
+#[test]
+fn stribeck_law_at_both_ends() {
+    let law = "{ type = \"stribeck\", static_friction = 0.3, kinetic_friction = 0.2, speed = 1.0, exponent = 2.0, viscous = 0.0 }";
+    for (dt, limit) in [(1e-12, "0.2"), (1e-9, "0.2"), (1e6, "0.3")] {
+        let coulomb = solved(limit, &[&format!("contact.0.law.friction={limit}")]);
+        let change = timed(&format!("stribeck, dt = {dt:e}"), law, dt).difference(1.0, &coulomb);
+        println!("stribeck against mu = {limit}, dt = {dt:e}: {change:.1e}");
+        assert!(change < 1e-2, "dt = {dt:e}: {change:e}");
+    }
+}
+
+/// Laws with a memory, from 1e-12 to 1e6 units of time for each step.
+#[test]
+fn laws_with_memory() {
+    let lugre = "{ type = \"lugre\", rest = 0.4, kinetic = 0.2, speed = 1.0, stiffness = 100.0, damping = 0.0, viscosity = 0.0 }";
+    let state = "{ type = \"rate-and-state\", friction = 0.3, direct_effect = 0.03, evolution_effect = 0.02, distance = 0.1, speed = 1.0 }";
+    for dt in [1e-12, 1e-3, 1e6] {
+        let slow = dt > 1.0;
+        let limits = [(lugre, if slow { "0.4" } else { "0.2" })];
+        for (law, limit) in limits {
+            let coulomb = solved(limit, &[&format!("contact.0.law.friction={limit}")]);
+            let change = timed(&format!("lugre, dt = {dt:e}"), law, dt).difference(1.0, &coulomb);
+            println!("lugre against mu = {limit}, dt = {dt:e}: {change:.1e}");
+            assert!(change < 1e-2, "dt = {dt:e}: {change:e}");
+        }
+        timed(&format!("rate and state, dt = {dt:e}"), state, dt);
+    }
+}
+
+/// The drive turns round inside a step (and would be forgotten by it): what follows is as if a step had ended there, but for the
+/// slip that the step does not see.
+#[test]
+fn reversal_inside_a_step() {
+    let drive = "drive.0.x={ displacement = { time = [0.0, 0.5, 1.0], value = [0.0, 0.9, 0.5] } }";
+    let [inside, at] =
+        [25, 24].map(|steps| solved(&format!("{steps} steps"), &[drive, &format!("time.steps={steps}")]));
+    let change = [0, 1].map(|c| (inside.last().force[c] - at.last().force[c]).abs() / at.peak(c));
+    println!("reversal inside a step: {change:.1?}");
+    assert!(inside.last().contact_length > 0.0 && change.iter().all(|c| *c < 0.02), "{change:?}");
+}
