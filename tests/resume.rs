@@ -106,7 +106,7 @@ fn more_cuts_go_on_from_the_last_step() {
         .replace("[-0.8, 0.6]", "[-0.8, 1.35]")
         .replace("[24, 4]", "[40, 8]")
         .replace("[13, 4]", "[21, 8]")
-        .replace("steps = 20", "steps = 60");
+        .replace("steps = 20", "steps = 120");
     let folder = folder("cuts", &scene);
     let output = asperity(&folder, &["run", "scene.toml", "--quiet", "--out", "it"]);
     assert_eq!(output.status.code(), Some(3), "{}", said(&output));
@@ -115,7 +115,7 @@ fn more_cuts_go_on_from_the_last_step() {
     let more = ["run", "scene.toml", "--quiet", "--out", "it", "--resume", "--set", "time.max_cuts=12"];
     let output = asperity(&folder, &more);
     assert!(output.status.success(), "{}", said(&output));
-    assert!(history().starts_with(&before) && folders::rows(&folder.join("it")) == 60);
+    assert!(history().starts_with(&before) && folders::rows(&folder.join("it")) == 120);
 }
 
 #[cfg(unix)]

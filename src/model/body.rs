@@ -13,7 +13,7 @@ pub enum BodyKind {
         /// Geometry and basis.
         patch: Patch,
         /// Reference gradients and weights.
-        elements: Elements,
+        elements: Box<Elements>,
         /// Constitutive model.
         material: Arc<dyn Material>,
     },

@@ -122,7 +122,7 @@ impl Builder {
         let offset = self.bodies.last().map_or(0, |b| b.nodes().end);
         let (kind, points) = match spec {
             BodySpec::Deformable(patch, material) => {
-                let elements = Elements::new(&patch, volume).ok_or_else(|| ModelError::Folded(name.into()))?;
+                let elements = Elements::new(&patch, volume).ok_or_else(|| ModelError::Folded(name.into()))?.into();
                 let points = patch.points.clone();
                 (BodyKind::Deformable { patch, elements, material }, points)
             }
