@@ -5,6 +5,8 @@
 mod hertz;
 #[path = "support/rubber.rs"]
 mod rubber;
+#[path = "support/shrink_fit.rs"]
+mod shrink_fit;
 mod support;
 
 use std::path::Path;

@@ -5,7 +5,7 @@ use nalgebra::Matrix2;
 use super::Material;
 use super::stiffness::{Stiffness, place};
 use super::volume::{Points, Volume, VolumeSpace};
-use crate::geometry::{Patch, Point};
+use crate::geometry::{Patch, PatchShape, Point};
 use crate::math::gauss;
 
 /// Reference shape gradients of a patch at its quadrature points, computed once.
@@ -38,10 +38,8 @@ impl Elements {
     ///
     /// Returns `None` where the map from parameters to the reference body is not invertible (Jacobian not positive).
     pub fn new(patch: &Patch, volume: Option<VolumeSpace>) -> Option<Self> {
-        let [nu, nv] = patch.elements();
-        let rules = [gauss(patch.basis[0].degree() + 1), gauss(patch.basis[1].degree() + 1)];
-        let points_per_element = rules[0].points.len() * rules[1].points.len();
-        let nodes_per_element = (patch.basis[0].degree() + 1) * (patch.basis[1].degree() + 1);
+        let points_per_element = (patch.basis[0].degree() + 1) * (patch.basis[1].degree() + 1);
+        let nodes_per_element = points_per_element; // as many functions as points along each direction
         let mut this = Self {
             nodes: vec![],
             nodes_per_element,
@@ -51,17 +49,13 @@ impl Elements {
             volume: None,
         };
         let mut parameters = vec![];
-        for element in (0..nv).flat_map(|j| (0..nu).map(move |i| [i, j])) {
-            let [[u0, u1], [v0, v1]] = patch.span_box(element);
-            for (eta, wv) in rules[1].points.iter().zip(&rules[1].weights) {
-                for (xi, wu) in rules[0].points.iter().zip(&rules[0].weights) {
-                    let uv = [u0 + xi * (u1 - u0), v0 + eta * (v1 - v0)];
-                    this.add_point(patch, element, uv, wu * wv * (u1 - u0) * (v1 - v0))?;
-                    parameters.push(uv);
-                }
+        for (element, points) in quadrature(patch) {
+            for (uv, weight) in points {
+                this.add_point(patch, element, uv, weight)?;
+                parameters.push(uv);
             }
-            let nodes = patch.shape(element, [u0, v0]).nodes;
-            this.nodes.extend(nodes);
+            let [[u0, _], [v0, _]] = patch.span_box(element);
+            this.nodes.extend(patch.shape(element, [u0, v0]).nodes);
         }
         let points = Points {
             nodes: &this.nodes,
@@ -76,11 +70,7 @@ impl Elements {
 
     fn add_point(&mut self, patch: &Patch, element: [usize; 2], uv: [f64; 2], weight: f64) -> Option<()> {
         let shape = patch.shape(element, uv);
-        let mut jacobian = Matrix2::zeros();
-        for (node, gradient) in shape.nodes.iter().zip(&shape.gradients) {
-            let x = patch.points[*node];
-            jacobian += Matrix2::new(x.x * gradient[0], x.x * gradient[1], x.y * gradient[0], x.y * gradient[1]);
-        }
+        let jacobian = jacobian(patch, &shape);
         let determinant = jacobian.determinant();
         let inverse = jacobian.try_inverse().filter(|_| determinant > 0.0)?;
         self.weights.push(weight * determinant);
@@ -152,10 +142,8 @@ impl Elements {
         let mut sums = stiffness.then(|| Stiffness::new(n, self.points_per_element));
         let mut energy = 0.0;
         for e in 0..self.count() {
-            let nodes = self.nodes(e);
+            let (nodes, points, of_points) = self.element(e);
             forces.fill(Point::zeros());
-            let points = e * self.points_per_element..(e + 1) * self.points_per_element;
-            let of_points = &self.gradients[points.start * n..points.end * n];
             for ((q, gradients), &w) in of_points.chunks_exact(n).enumerate().zip(&self.weights[points]) {
                 let f = deformation_gradient(nodes, gradients, u);
                 let (density, stress) = match &mut sums {
@@ -189,4 +177,31 @@ pub(super) fn deformation_gradient(nodes: &[usize], gradients: &[[f64; 2]], u: &
         f[3] += d.y * g[1];
     }
     Matrix2::new(f[0], f[1], f[2], f[3])
+}
+
+/// Every element of a patch with its Gauss points, `degree + 1` in each direction, and their weights in the parameters.
+pub(super) fn quadrature(patch: &Patch) -> impl Iterator<Item = ([usize; 2], Vec<([f64; 2], f64)>)> + '_ {
+    let [nu, nv] = patch.elements();
+    let rules = [0, 1].map(|d| gauss(patch.basis[d].degree() + 1));
+    (0..nv).flat_map(move |j| (0..nu).map(move |i| [i, j])).map(move |element| {
+        let [[u0, u1], [v0, v1]] = patch.span_box(element);
+        let [along_u, along_v] = &rules;
+        let mut points = Vec::with_capacity(along_u.points.len() * along_v.points.len());
+        for (eta, wv) in along_v.points.iter().zip(&along_v.weights) {
+            for (xi, wu) in along_u.points.iter().zip(&along_u.weights) {
+                points.push(([u0 + xi * (u1 - u0), v0 + eta * (v1 - v0)], wu * wv * (u1 - u0) * (v1 - v0)));
+            }
+        }
+        (element, points)
+    })
+}
+
+/// Derivative of the reference position by the parameters.
+pub(super) fn jacobian(patch: &Patch, shape: &PatchShape) -> Matrix2<f64> {
+    let mut jacobian = Matrix2::zeros();
+    for (node, gradient) in shape.nodes.iter().zip(&shape.gradients) {
+        let x = patch.points[*node];
+        jacobian += Matrix2::new(x.x * gradient[0], x.x * gradient[1], x.y * gradient[0], x.y * gradient[1]);
+    }
+    jacobian
 }

@@ -23,16 +23,10 @@ impl Drag {
 
     /// Adds `strength E A_a/h^2 (u_a - u_a of the start)` to the residual, and its derivative to the system.
     pub fn add(&self, strength: f64, model: &Model, start: &State, trial: &State, found: &mut Evaluation) {
-        for (node, share) in self.shares.iter().enumerate() {
-            let coefficient = strength * model.modulus * share;
-            let moved = trial.u[node] - start.u[node];
-            for c in 0..2 {
-                if let Some(e) = model.equations.unknown(node, c) {
-                    found.residual[e] += coefficient * moved[c];
-                    if let Some(system) = &mut found.system {
-                        system.interface.push((e, e, coefficient));
-                    }
-                }
+        for (e, coefficient, moved) in self.terms(strength, model, start, trial) {
+            found.residual[e] += coefficient * moved;
+            if let Some(system) = &mut found.system {
+                system.interface.push((e, e, coefficient));
             }
         }
     }
@@ -40,14 +34,22 @@ impl Drag {
     /// Its largest entry in the residual of a step.
     pub fn largest(&self, strength: f64, model: &Model, start: &State, end: &State) -> f64 {
         let mut forces = vec![0.0; model.equations.count];
-        for (node, share) in self.shares.iter().enumerate() {
-            let moved = end.u[node] - start.u[node];
-            for c in 0..2 {
-                if let Some(e) = model.equations.unknown(node, c) {
-                    forces[e] += strength * model.modulus * share * moved[c];
-                }
-            }
-        }
+        self.terms(strength, model, start, end).for_each(|(e, coefficient, moved)| forces[e] += coefficient * moved);
         forces.iter().fold(0.0, |m, f: &f64| m.max(f.abs()))
+    }
+
+    /// Equation, coefficient and displacement of every component that is free; those of one equation add up.
+    fn terms<'a>(
+        &'a self,
+        strength: f64,
+        model: &'a Model,
+        start: &'a State,
+        end: &'a State,
+    ) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
+        self.shares.iter().enumerate().flat_map(move |(node, share)| {
+            let moved = end.u[node] - start.u[node];
+            let term = move |c| Some((model.equations.unknown(node, c)?, strength * model.modulus * share, moved[c]));
+            (0..2).filter_map(term)
+        })
     }
 }

@@ -17,7 +17,8 @@
 use crate::model::{Drag, Model, State};
 
 use super::convergence::tolerance;
-use super::newton::{NewtonReport, StepFailure};
+use super::failure::StepFailure;
+use super::newton::NewtonReport;
 
 /// Steps in which a crossing must come to rest. The first takes half of the step that failed, so that the drive is beyond the end
 /// of the path, the others share the rest.

@@ -10,8 +10,9 @@ use crate::model::{
 
 use super::Strategy;
 use super::crossing::cross;
+use super::failure::StepFailure;
 use super::limits;
-use super::newton::{NewtonReport, Step, StepFailure, solve_dragged, solve_step};
+use super::newton::{NewtonReport, Step, solve_dragged, solve_step};
 use super::status::{Outcome, Status};
 use super::witness::{Effort, Witness};
 
@@ -253,17 +254,8 @@ impl March<'_, '_> {
         let asked = failure.lost() && self.failures == 0;
         let guess = asked.then(|| self.tools.witness.rescue(self.model, start, next, self.interrupt)).flatten();
         let Some(guess) = guess else { return Err(failure) };
-        let (model, strategy, interrupt) = (self.model, self.strategy, self.interrupt);
-        let mut step = Step {
-            model,
-            start,
-            strategy,
-            solver: self.tools.solver,
-            interrupt,
-            iterations,
-            weakens: false,
-            drag: None,
-        };
+        let solver = &mut *self.tools.solver;
+        let mut step = Step::new(self.model, start, self.strategy, solver, self.interrupt, iterations);
         step.attempt(guess).map_err(|_| failure)
     }
 

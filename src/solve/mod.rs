@@ -2,6 +2,7 @@
 
 mod convergence;
 mod crossing;
+mod failure;
 mod floating;
 mod interface_loop;
 mod limits;
@@ -12,9 +13,10 @@ mod status;
 pub mod weakening;
 mod witness;
 
+pub use failure::StepFailure;
 pub use interface_loop::Strategy;
 pub use march::{Control, StepReport, Tools, march, proceed};
-pub use newton::{NewtonReport, StepFailure, solve_step};
+pub use newton::{NewtonReport, solve_step};
 pub use predictor::predict;
 pub use status::{Outcome, Status};
 pub use witness::{Effort, Witness};

@@ -6,6 +6,7 @@ use crate::math::{LinearSolver, SolveError};
 use crate::model::{Drag, Evaluation, Linearised, Model, State, Tangent, evaluate, explain};
 
 use super::convergence::{balanced, forecast, largest, norm, stalled, tolerance};
+use super::failure::StepFailure;
 use super::floating::{hint, support_floating};
 use super::interface_loop::{Strategy, negative, settle};
 use super::predictor::{guesses, predict, trend};
@@ -15,55 +16,6 @@ use super::weakening::{self, Linearisation};
 const GROWTH: f64 = 1.0 + 1e-6;
 /// Lengths tried when a full step is no good: 1, 1/2, 1/4, ...
 const HALVINGS: i32 = 7;
-
-/// Why a step was thrown away.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StepFailure {
-    /// No convergence.
-    #[error(
-        "Newton's method did not converge in {iterations} iterations (residual {residual:.1e} of the largest nodal force){hint}"
-    )]
-    Iterations {
-        /// Linear solves.
-        iterations: usize,
-        /// Last residual over the largest nodal force.
-        residual: f64,
-        /// What the last iterate suggests, starting with a separator; may be empty.
-        hint: String,
-    },
-    /// A body was turned inside out and no shorter step helped.
-    #[error("a body is turned inside out (det F <= 0) in iteration {0}")]
-    Inverted(usize),
-    /// The linear system could not be solved.
-    #[error("{0}")]
-    Linear(#[from] SolveError),
-    /// A friction law gave no number.
-    #[error("a friction law gives no number {0}")]
-    Law(String),
-    /// Converged, but too long for the friction law.
-    #[error(
-        "the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
-    )]
-    Vetoed {
-        /// Step that converged.
-        taken: f64,
-        /// Longest step that the law accepts.
-        step: f64,
-    },
-    /// A motion under drag that found no equilibrium, see `solve::crossing`.
-    #[error("moved on under drag the bodies do not come to rest")]
-    Restless,
-    /// Stopped from outside.
-    #[error("interrupted")]
-    Interrupted,
-}
-
-impl StepFailure {
-    /// True where Newton's method found no equilibrium.
-    pub fn lost(&self) -> bool {
-        matches!(self, Self::Iterations { .. } | Self::Inverted(_) | Self::Linear(_))
-    }
-}
 
 /// A converged step.
 pub struct NewtonReport {
@@ -98,7 +50,7 @@ pub fn solve_step(
     interrupt: &AtomicBool,
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
-    let mut step = Step { model, start, strategy, solver, interrupt, iterations, weakens: false, drag: None };
+    let mut step = Step::new(model, start, strategy, solver, interrupt, iterations);
     let mut failure = None;
     let mut guesses = guesses(model, start, time, |found| balanced(model, found));
     if guesses.first().is_some_and(|(_, forces)| balanced(model, forces)) {
@@ -132,23 +84,36 @@ pub fn solve_dragged(
     interrupt: &AtomicBool,
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
-    let strategy = Strategy::Monolithic;
-    let mut step = Step { model, start, strategy, solver, interrupt, iterations, weakens: false, drag: Some(drag) };
-    step.attempt(predict(model, start, time))
+    let step = Step::new(model, start, Strategy::Monolithic, solver, interrupt, iterations);
+    Step { drag: Some(drag), ..step }.attempt(predict(model, start, time))
 }
 
 /// A step being solved.
 pub(super) struct Step<'a> {
-    pub model: &'a Model,
-    pub start: &'a State,
-    pub strategy: Strategy,
-    pub solver: &'a mut dyn LinearSolver,
-    pub interrupt: &'a AtomicBool,
-    pub iterations: &'a mut usize,
+    model: &'a Model,
+    start: &'a State,
+    strategy: Strategy,
+    solver: &'a mut dyn LinearSolver,
+    interrupt: &'a AtomicBool,
+    iterations: &'a mut usize,
     /// Whether friction fell with the slip rate at some iterate.
-    pub weakens: bool,
+    weakens: bool,
     /// Drag with its strength.
-    pub drag: Option<(&'a Drag, f64)>,
+    drag: Option<(&'a Drag, f64)>,
+}
+
+impl<'a> Step<'a> {
+    /// Without drag; `iterations` counts on.
+    pub fn new(
+        model: &'a Model,
+        start: &'a State,
+        strategy: Strategy,
+        solver: &'a mut dyn LinearSolver,
+        interrupt: &'a AtomicBool,
+        iterations: &'a mut usize,
+    ) -> Self {
+        Self { model, start, strategy, solver, interrupt, iterations, weakens: false, drag: None }
+    }
 }
 
 impl Step<'_> {

@@ -7,15 +7,15 @@ use std::sync::atomic::AtomicBool;
 
 use asperity::bulk::{Elements, LinearElastic, Material, Tau, VolumeSpace};
 use asperity::contact::{Integration, Sites};
-use asperity::geometry::shapes::{AnnulusSector, Nurbs};
+use asperity::geometry::shapes::Nurbs;
 use asperity::geometry::{BasisSpec, Edge, Patch, Point, ShapeSpec, build};
-use asperity::laws::builtin::Frictionless;
 use asperity::math::CondensedSolver;
-use asperity::model::{BodyKind, BodySpec, Builder, Control, Evaluation, Model, PairSpec, State, Table, evaluate};
+use asperity::model::{BodyKind, BodySpec, Builder, Control, Evaluation, Model, State, Table, evaluate};
 use asperity::solve::{Strategy, solve_step};
 use nalgebra::Matrix2;
 
 use crate::hertz::Case;
+use crate::shrink_fit;
 
 /// What a case leaves to the program, or demands.
 pub type Choice = Option<Option<VolumeSpace>>;
@@ -107,16 +107,15 @@ impl<'a> Stress<'a> {
     }
 }
 
-const RADII: [f64; 3] = [1.0, 1.5, 2.0];
-const INTERFERENCE: f64 = 1e-6;
-
 /// Largest relative errors of a shrink fit of two quarter rings against Lame: contact pressure, and `tau`, which is
 /// constant in each ring: `nu (sigma_rr + sigma_tt)`.
 pub fn ring(basis: BasisSpec, nu: f64, refinement: usize, choice: Choice) -> [f64; 2] {
-    let [a, b, c] = RADII;
-    let compliance = |r: f64| ((1.0 - 2.0 * nu) * b * b + r * r) / (r * r - b * b).abs();
-    let exact = INTERFERENCE / (b * (1.0 + nu) * (compliance(a) + compliance(c)));
-    let model = ring_model(basis, nu, refinement, choice);
+    let [a, b, c] = shrink_fit::RADII;
+    let exact = shrink_fit::pressure(1.0, nu);
+    let elements = [[8, 4], [6, 4]].map(|counts: [usize; 2]| counts.map(|n| n * refinement));
+    let model = shrink_fit::model(basis, elements, Integration::Segment, |builder, name, patch| {
+        add(builder, name, patch, nu, choice);
+    });
     let (state, found) = solve(&model);
     let pressure = found.interfaces[0].sites.iter().fold(0.0_f64, |m, s| m.max((s.pressure - exact).abs()));
     let mut worst = 0.0_f64;
@@ -134,28 +133,6 @@ pub fn ring(basis: BasisSpec, nu: f64, refinement: usize, choice: Choice) -> [f6
         }
     }
     [100.0 * pressure / exact, 100.0 * worst / exact]
-}
-
-fn ring_model(basis: BasisSpec, nu: f64, refinement: usize, choice: Choice) -> Model {
-    let mut builder = Builder::default();
-    let [a, b, c] = RADII;
-    let body = |radii, elements: [usize; 2]| {
-        let shape = ShapeSpec::AnnulusSector(AnnulusSector { center: [0.0; 2], radii, angles: [0.0, 90.0] });
-        build(&shape, &basis, elements.map(|n| n * refinement), None, [0.0; 2], Path::new(".")).expect("a sector")
-    };
-    let mut pair = PairSpec::new(("outer", Edge::Bottom), ("inner", Edge::Top), Arc::new(Frictionless {}));
-    pair.integration = Some(Integration::Segment);
-    let built = (|| {
-        add(&mut builder, "inner", body([a, b + INTERFERENCE], [8, 4]), nu, choice);
-        add(&mut builder, "outer", body([b, c], [6, 4]), nu, choice);
-        for name in ["inner", "outer"] {
-            let held = || Control::Displacement(Table::constant(0.0));
-            builder.motion(name, Edge::Left, 0, held(), false)?.motion(name, Edge::Right, 1, held(), false)?;
-        }
-        builder.contact(pair);
-        builder.build()
-    })();
-    built.expect("a valid model")
 }
 
 fn add(builder: &mut Builder, name: &str, patch: Patch, nu: f64, choice: Choice) {

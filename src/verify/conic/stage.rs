@@ -196,13 +196,14 @@ impl PairSites<'_> {
             Carries::Bound(bound) => bound,
         };
         let slip = sliding(site, self.relaxation(site)).abs();
-        let hardening = bound[2].max(0.0);
+        // no cone is narrower than nothing, whatever a law far from its range says; `max` also drops what is no number
+        let [value, by_pressure, hardening] = bound.map(|b| b.max(0.0));
         let [slope, shift] = match self.way {
             Way::Tresca => [0.0, 0.0],
-            Way::DeSaxce => [bound[1].clamp(0.0, if p > 0.0 { bound[0] / p } else { f64::MAX }), slip],
+            Way::DeSaxce => [if p > 0.0 { by_pressure.min(value / p) } else { by_pressure }, slip],
         };
-        let hardening = hardening.min(if slip > 0.0 { (bound[0] - slope * p) / slip } else { hardening });
-        let constant = (bound[0] - slope * p - hardening * slip).max(0.0);
+        let hardening = if slip > 0.0 { hardening.min((value - slope * p) / slip) } else { hardening };
+        let constant = (value - slope * p - hardening * slip).max(0.0);
         Friction::Cone(Cone { constant, slope, hardening, shift })
     }
 

@@ -1,0 +1,52 @@
+//! Why a step was not made.
+
+use crate::math::SolveError;
+
+/// Why a step was thrown away.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StepFailure {
+    /// No convergence.
+    #[error(
+        "Newton's method did not converge in {iterations} iterations (residual {residual:.1e} of the largest nodal force){hint}"
+    )]
+    Iterations {
+        /// Linear solves.
+        iterations: usize,
+        /// Last residual over the largest nodal force.
+        residual: f64,
+        /// What the last iterate suggests, starting with a separator; may be empty.
+        hint: String,
+    },
+    /// A body was turned inside out and no shorter step helped.
+    #[error("a body is turned inside out (det F <= 0) in iteration {0}")]
+    Inverted(usize),
+    /// The linear system could not be solved.
+    #[error("{0}")]
+    Linear(#[from] SolveError),
+    /// A friction law gave no number.
+    #[error("a friction law gives no number {0}")]
+    Law(String),
+    /// Converged, but too long for the friction law.
+    #[error(
+        "the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
+    )]
+    Vetoed {
+        /// Step that converged.
+        taken: f64,
+        /// Longest step that the law accepts.
+        step: f64,
+    },
+    /// A motion under drag that found no equilibrium, see `solve::crossing`.
+    #[error("moved on under drag the bodies do not come to rest")]
+    Restless,
+    /// Stopped from outside.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl StepFailure {
+    /// True where Newton's method found no equilibrium.
+    pub fn lost(&self) -> bool {
+        matches!(self, Self::Iterations { .. } | Self::Inverted(_) | Self::Linear(_))
+    }
+}
