@@ -133,6 +133,8 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "sparse_lu_instead": {
             "indefinite": solver.indefinite, "coupled": solver.coupled, "inaccurate": solver.inaccurate,
         },
+        "events": outcome.log.events,
+        "earlier_events": outcome.log.dropped,
         "certified": certify::summary(&report.certified),
         "audit": {
             "passed": !report.findings.iter().any(Finding::failed),

@@ -4,23 +4,21 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::math::LinearSolver;
-use crate::model::{
-    Control as MotionControl, Drag, Evaluation, Model, Motion, Record, State, Tangent, evaluate, record, suggested_step,
-};
+use crate::model::{Drag, Evaluation, Model, Record, State, Tangent, evaluate, record, suggested_step};
 
 use super::Strategy;
 use super::crossing::cross;
+use super::ending;
 use super::failure::StepFailure;
-use super::limits;
-use super::newton::{NewtonReport, Step, solve_dragged, solve_step};
+use super::ladder::climb;
+use super::log::{Event, Rung, Tried};
+use super::newton::{NewtonReport, Step, solve_dragged};
+use super::pace::within_stride;
 use super::status::{Outcome, Status};
 use super::witness::{Effort, Witness};
 
 /// A law that suggests a step shorter than this share of the one taken has it repeated.
 const VETO: f64 = 1.0 - 1e-9;
-
-/// A step that must be halved more often for its drive to be followed is a slip of the pen.
-const MOST_HALVINGS: usize = 12;
 
 /// Iterations above which the next step is half as long: an easy step takes about four, so two of half the length cost no
 /// more then (measured in `papers/cost`).
@@ -105,6 +103,7 @@ pub fn proceed<E>(
         smallest,
         failures: 0,
         drag: None,
+        tried: vec![],
         outcome: Outcome { status: Status::Done, ..from },
     };
     for step in first + 1..=control.steps {
@@ -135,20 +134,6 @@ pub fn proceed<E>(
     Ok(march.outcome)
 }
 
-/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`; `None` where a drive outruns that by
-/// more than [`MOST_HALVINGS`].
-fn within_stride(model: &Model, time: f64, wanted: f64) -> Option<f64> {
-    let travel = |until: f64| {
-        let of = |motion: &Motion| match &motion.control {
-            MotionControl::Displacement(table) => (table.at(until) - table.at(time)).abs(),
-            MotionControl::Force(_) => 0.0,
-        };
-        model.motions.iter().map(of).fold(0.0, f64::max)
-    };
-    let mut halved = std::iter::successors(Some(wanted), |until| Some(time + 0.5 * (until - time)));
-    halved.by_ref().take(MOST_HALVINGS).find(|until| travel(*until) <= model.stride)
-}
-
 /// A march under way.
 struct March<'a, 't> {
     model: &'a Model,
@@ -161,6 +146,8 @@ struct March<'a, 't> {
     failures: usize,
     /// Made when it is needed first.
     drag: Option<Drag>,
+    /// Rungs that were left in the step under way.
+    tried: Vec<Tried>,
     outcome: Outcome,
 }
 
@@ -193,31 +180,58 @@ impl March<'_, '_> {
             };
             match self.step(next) {
                 Ok(done) => {
+                    self.note((time, next), Some(done.rung));
                     weakening = weakening.max(done.weakening);
                     if next == target {
                         return Ok(Reached { evaluation: done.evaluation, weakening });
                     }
                 }
                 Err(StepFailure::Interrupted) => return Err(Status::Interrupted { time }),
-                Err(failure) => {
-                    self.outcome.cuts += 1;
-                    self.failures += 1;
-                    if self.failures == LOST && failure.lost() && self.cross(next) {
-                        continue;
-                    }
-                    match failure {
-                        StepFailure::Vetoed { step, .. } => self.outcome.law = step,
-                        _ => self.outcome.dt = 0.5 * (next - time),
-                    }
-                    if self.outcome.dt.min(self.outcome.law) < self.smallest {
-                        if failure.lost() && target - time > self.smallest && self.cross(target) {
-                            continue;
-                        }
-                        let reason = failure.to_string() + &limits::reached(self.model, &self.outcome.state);
-                        return Err(Status::NotConverged { time, reason });
-                    }
-                }
+                Err(failure) => self.shorten(next, target, &failure)?,
             }
+        }
+    }
+
+    /// After a step that failed: the next try is shorter, or starts behind a snap.
+    ///
+    /// # Errors
+    /// That there is no way on.
+    fn shorten(&mut self, next: f64, target: f64, failure: &StepFailure) -> Result<(), Status> {
+        let time = self.outcome.state.time;
+        self.outcome.cuts += 1;
+        self.failures += 1;
+        if matches!(failure, StepFailure::Vetoed { .. }) {
+            Tried::note(&mut self.tried, Rung::Newton, failure);
+        }
+        if self.failures == LOST && failure.lost() && self.cross(next) {
+            self.note((time, next), Some(Rung::Crossing));
+            return Ok(());
+        }
+        match failure {
+            StepFailure::Vetoed { step, .. } => self.outcome.law = *step,
+            _ => self.outcome.dt = 0.5 * (next - time),
+        }
+        if self.outcome.dt.min(self.outcome.law) >= self.smallest {
+            self.note((time, next), Some(Rung::Cut));
+            return Ok(());
+        }
+        if failure.lost() && target - time > self.smallest && self.cross(target) {
+            self.note((time, target), Some(Rung::Crossing));
+            return Ok(());
+        }
+        if self.interrupt.load(Ordering::Relaxed) {
+            return Err(Status::Interrupted { time });
+        }
+        let reason = ending::words(self.model, &self.outcome, &self.tried, failure);
+        self.note((time, next), None);
+        Err(Status::NotConverged { time, reason })
+    }
+
+    /// Writes down what was left in a step, if anything was, and what went on.
+    fn note(&mut self, (time, until): (f64, f64), reached: Option<Rung>) {
+        let tried = std::mem::take(&mut self.tried);
+        if !tried.is_empty() {
+            self.outcome.log.push(Event { time, until, tried, reached });
         }
     }
 
@@ -226,8 +240,9 @@ impl March<'_, '_> {
         let (clock, before) = (Instant::now(), self.outcome.iterations);
         let start = &self.outcome.state;
         let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);
-        let found = solve_step(self.model, start, next, self.strategy, solver, self.interrupt, iterations);
-        let rescued = found.is_err();
+        let mut step = Step::new(self.model, start, self.strategy, solver, self.interrupt, iterations);
+        let found = climb(&mut step, next);
+        self.tried = step.tried;
         let mut done = found.or_else(|failure| self.rescue(next, failure))?;
         let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
         let law = suggested_step(self.model, start, &done.evaluation, dt);
@@ -237,8 +252,8 @@ impl March<'_, '_> {
         let effort = Effort { iterations: self.outcome.iterations - before, wall_s: clock.elapsed().as_secs_f64() };
         self.tools.witness.accepted(self.model, start, &done, effort);
         self.outcome.steps += 1;
-        self.outcome.lagged += usize::from(done.lagged);
-        self.outcome.rescued += usize::from(rescued);
+        self.outcome.lagged += usize::from(done.rung == Rung::Lagged);
+        self.outcome.rescued += usize::from(done.rung == Rung::Conic);
         let (hard, double) = (done.iterations > HARD, 2.0 * self.outcome.dt);
         self.outcome.dt = if hard { (0.5 * dt).max(self.smallest) } else { double.min(self.nominal) };
         self.outcome.law = law;
@@ -256,7 +271,9 @@ impl March<'_, '_> {
         let Some(guess) = guess else { return Err(failure) };
         let solver = &mut *self.tools.solver;
         let mut step = Step::new(self.model, start, self.strategy, solver, self.interrupt, iterations);
-        step.attempt(guess).map_err(|_| failure)
+        let found = step.attempt(guess, Rung::Conic);
+        self.tried.extend(step.tried);
+        found.map_err(|_| failure)
     }
 
     /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach.
@@ -267,11 +284,14 @@ impl March<'_, '_> {
         let solve = |from: &State, time, strength| {
             solve_dragged(model, from, time, (drag, strength), solver, interrupt, iterations)
         };
-        let (Some(before), Ok(done)) =
-            (evaluate(model, start, start, Tangent::None), cross(model, drag, start, until, solve))
-        else {
-            return false;
+        let done = match cross(model, drag, start, until, solve) {
+            Ok(done) => done,
+            Err(failure) => {
+                Tried::note(&mut self.tried, Rung::Crossing, &failure);
+                return false;
+            }
         };
+        let Some(before) = evaluate(model, start, start, Tangent::None) else { return false };
         let supplied = done.state.ledger.external_work - start.ledger.external_work;
         let used = done.state.ledger.dissipated - start.ledger.dissipated;
         let loss = supplied - used - (done.evaluation.strain_energy - before.strain_energy);
