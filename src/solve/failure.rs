@@ -42,6 +42,19 @@ pub enum StepFailure {
     /// Converged to an equilibrium that is not stable: friction takes away this many times the tangential stiffness.
     #[error("found an equilibrium that is not stable (friction takes {0:.2} times the tangential stiffness)")]
     Unstable(f64),
+    /// Converged, but over a snap: see `solve::release`.
+    #[error("leapt to another equilibrium path: sets free {0:.3e}, more than the work of the step can explain")]
+    Leapt(f64),
+    /// Converged, but with contact at another flank: see `solve::release`.
+    #[error("{sites} contact sites, the first at ({x:.4}, {y:.4}), left their flank for another one")]
+    Jumped {
+        /// How many.
+        sites: usize,
+        /// Where the first is now.
+        x: f64,
+        /// Where the first is now.
+        y: f64,
+    },
     /// A motion under drag that found no equilibrium, see `solve::crossing`.
     #[error("moved on under drag the bodies do not come to rest")]
     Restless,

@@ -9,14 +9,16 @@ use crate::math::LinearSolver;
 use crate::model::{Model, State};
 
 use super::convergence::balanced;
+use super::easing::{decades, eased};
 use super::failure::StepFailure;
 use super::interface_loop::Strategy;
-use super::log::Rung;
+use super::log::{Rung, Tried};
 use super::newton::{NewtonReport, Step};
 use super::predictor::guesses;
 
 /// Solves the step from `start` to `time`, from the best of the guesses and, where Newton fails, from the next; where all
-/// fail, from each once more with contact settled in an inner loop, which costs more but cycles less.
+/// fail, from each once more with contact settled in an inner loop, which costs more but cycles less; then, where the augmentations
+/// are not `E/h`, from the solution with those.
 /// A law that weakens with the slip rate has a second way, see [`super::weakening`]: it is taken where the exact tangent
 /// fails, and where it ends in an unstable equilibrium. `iterations` counts the linear solves, failed attempts included.
 ///
@@ -43,6 +45,7 @@ pub(super) fn climb(step: &mut Step, time: f64) -> Result<NewtonReport, StepFail
         let (guess, forces) = guesses.swap_remove(0);
         return Ok(step.converged(guess, forces, vec![]));
     }
+    let before = step.strategy;
     let again = (step.strategy == Strategy::Monolithic).then_some(Strategy::Interface);
     for strategy in [step.strategy].into_iter().chain(again) {
         let other = if strategy == step.strategy { Rung::Guess } else { Rung::Interface };
@@ -54,6 +57,18 @@ pub(super) fn climb(step: &mut Step, time: f64) -> Result<NewtonReport, StepFail
                 Err(error) => failure = failure.or(Some(error)),
                 done => return done,
             }
+        }
+    }
+    step.strategy = before;
+    if let (1.., Some((guess, _))) = (decades(model), guesses.first()) {
+        match eased(step, guess.clone()) {
+            Ok(guess) => match step.attempt(guess, Rung::Augmentation) {
+                Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
+                Err(_) => {}
+                done => return done,
+            },
+            Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
+            Err(error) => Tried::note(&mut step.tried, Rung::Augmentation, &error),
         }
     }
     Err(failure.unwrap_or(StepFailure::Inverted(0)))

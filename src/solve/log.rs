@@ -19,6 +19,8 @@ pub enum Rung {
     Lagged,
     /// Contact settled in an inner loop, from every guess.
     Interface,
+    /// The same step with the augmentations `E/h`, and Newton's method from its solution.
+    Augmentation,
     /// The conic method, see [`super::Witness`], and Newton's method from what it finds.
     Conic,
     /// The step is tried again with half of its length, or with that which the law asks for.
@@ -29,8 +31,16 @@ pub enum Rung {
 
 impl Rung {
     /// All, in order.
-    pub const ALL: [Self; 7] =
-        [Self::Newton, Self::Guess, Self::Lagged, Self::Interface, Self::Conic, Self::Cut, Self::Crossing];
+    pub const ALL: [Self; 8] = [
+        Self::Newton,
+        Self::Guess,
+        Self::Lagged,
+        Self::Interface,
+        Self::Augmentation,
+        Self::Conic,
+        Self::Cut,
+        Self::Crossing,
+    ];
 
     /// As it stands in reports.
     pub fn name(self) -> &'static str {
@@ -39,6 +49,7 @@ impl Rung {
             Self::Guess => "other first guesses",
             Self::Lagged => "lagged bound",
             Self::Interface => "inner loop on the interface",
+            Self::Augmentation => "augmentation E/h first",
             Self::Conic => "conic method",
             Self::Cut => "shorter step",
             Self::Crossing => "crossing of a snap",

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::math::LinearSolver;
-use crate::model::{Drag, Evaluation, Model, Record, State, Tangent, evaluate, record, suggested_step};
+use crate::model::{Drag, Evaluation, Model, Record, State, record, suggested_step};
 
 use super::Strategy;
 use super::crossing::cross;
@@ -14,6 +14,7 @@ use super::ladder::climb;
 use super::log::{Event, Rung, Tried};
 use super::newton::{NewtonReport, Step, solve_dragged};
 use super::pace::within_stride;
+use super::release::{FINEST, leap};
 use super::status::{Outcome, Status};
 use super::witness::{Effort, Witness};
 
@@ -249,6 +250,28 @@ impl March<'_, '_> {
         if law < VETO * dt {
             return Err(StepFailure::Vetoed { taken: dt, step: law });
         }
+        if let Some(failure) = leap(self.model, start, &done) {
+            Tried::note(&mut self.tried, done.rung, &failure);
+            if dt > FINEST * self.nominal && 0.5 * dt >= self.smallest {
+                return Err(failure);
+            }
+            if let StepFailure::Leapt(energy) = failure {
+                done.rung = Rung::Crossing;
+                done.state.ledger.snap_loss += energy;
+                self.outcome.snaps += 1;
+            }
+        }
+        if std::env::var("ASP_MEASURE").is_ok() {
+            let s = done
+                .evaluation
+                .interfaces
+                .iter()
+                .flat_map(|i| &i.sites)
+                .filter(|s| s.status != crate::model::ContactStatus::Open);
+            let worst = s.fold(0.0_f64, |m, s| m.max(s.slip.abs()));
+            eprintln!("SLIP {} {} {}", next, worst / self.model.element_size, dt / self.nominal);
+        }
+        let start = &self.outcome.state;
         let effort = Effort { iterations: self.outcome.iterations - before, wall_s: clock.elapsed().as_secs_f64() };
         self.tools.witness.accepted(self.model, start, &done, effort);
         self.outcome.steps += 1;
@@ -291,10 +314,7 @@ impl March<'_, '_> {
                 return false;
             }
         };
-        let Some(before) = evaluate(model, start, start, Tangent::None) else { return false };
-        let supplied = done.state.ledger.external_work - start.ledger.external_work;
-        let used = done.state.ledger.dissipated - start.ledger.dissipated;
-        let loss = supplied - used - (done.evaluation.strain_energy - before.strain_energy);
+        let loss = done.state.ledger.released_since(&start.ledger);
         self.outcome.state = done.state;
         self.outcome.state.ledger.snap_loss += loss;
         self.outcome.snaps += 1;

@@ -2,6 +2,7 @@
 
 mod convergence;
 mod crossing;
+mod easing;
 mod ending;
 mod failure;
 mod floating;
@@ -13,6 +14,7 @@ mod march;
 mod newton;
 mod pace;
 mod predictor;
+mod release;
 mod sets;
 mod status;
 pub mod weakening;

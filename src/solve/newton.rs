@@ -86,6 +86,11 @@ impl<'a> Step<'a> {
 }
 
 impl Step<'_> {
+    /// The same step of another model with the same unknowns.
+    pub fn with<'b>(&'b mut self, model: &'b Model) -> Step<'b> {
+        Step::new(model, self.start, Strategy::Monolithic, self.solver, self.interrupt, self.iterations)
+    }
+
     /// From one guess: with the exact tangent, then, for a law that weakens, with lagged bound where that failed or found
     /// an unstable equilibrium. What is given up is noted under `rung`.
     pub fn attempt(&mut self, guess: State, rung: Rung) -> Result<NewtonReport, StepFailure> {
