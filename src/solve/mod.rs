@@ -1,5 +1,6 @@
 //! Solving: Newton for one step, and the march through time that cuts and regrows steps.
 
+mod advance;
 mod convergence;
 mod crossing;
 mod easing;
