@@ -7,6 +7,7 @@ mod interface;
 mod kinematics;
 mod loaded;
 mod mortar;
+mod outline;
 mod point;
 mod projection;
 mod sites;
