@@ -112,9 +112,17 @@ impl Mortar {
         &self.numerics
     }
 
-    /// Reference length of the nonmortar edge, as its integration points measure it and along a fine polygon.
-    pub fn lengths(&self) -> [f64; 2] {
-        [self.reach, self.nonmortar.span_lengths().iter().sum()]
+    /// Reference lengths of the nonmortar and the mortar edge, each as its Gauss points measure it and along a fine polygon.
+    pub fn lengths(&self) -> [[f64; 2]; 2] {
+        let rule = gauss(self.mortar.basis.degree() + 1);
+        let points = EdgeFunctions { curve: &self.mortar, multiplier: None }.points(&rule, &[]);
+        let polygon = |curve: &Curve| curve.span_lengths().iter().sum();
+        [[self.reach, polygon(&self.nonmortar)], [points.iter().map(|p| p.weight).sum(), polygon(&self.mortar)]]
+    }
+
+    /// Length of a nonmortar element in mortar elements, the shortest of either side.
+    pub fn contrast(&self) -> f64 {
+        self.nonmortar.shortest_span() / self.mortar.shortest_span()
     }
 
     /// The law, where there is friction.

@@ -64,6 +64,11 @@ impl Curve {
         self.basis.breaks().windows(2).map(chords).collect()
     }
 
+    /// Length of the shortest span of the reference curve.
+    pub fn shortest_span(&self) -> f64 {
+        self.span_lengths().into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// Outward unit normal of the reference curve.
     pub fn normal(&self, xi: f64) -> Point {
         let a = self.place(&self.shape(self.span_of(xi), xi), 1, &self.points);
