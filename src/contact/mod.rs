@@ -8,6 +8,7 @@ mod interface;
 mod kinematics;
 mod loaded;
 mod mortar;
+mod outline;
 mod point;
 mod projection;
 mod sites;

@@ -3,6 +3,7 @@
 mod assembly;
 mod body;
 mod build;
+mod choices;
 mod drag;
 mod equations;
 mod linearised;
