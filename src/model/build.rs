@@ -203,6 +203,8 @@ impl Builder {
             boundary: boundary(&pairs, &equations),
             pairs,
             equations,
+            inertia: None,
+            viscosity: None,
         })
     }
 

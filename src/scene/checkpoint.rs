@@ -212,5 +212,6 @@ fn fits(state: &State, model: &Model) -> bool {
         && state.pairs.len() == model.pairs.len()
         && state.pairs.iter().zip(&model.pairs).all(pair)
         && state.ledger.forces.len() == model.motions.len()
+        && state.rates.velocity.len() == if model.inertia.is_some() { model.nodes() } else { 0 }
         && state.trend.iter().all(|t| t.rate.len() == unknowns && [0, unknowns].contains(&t.change.len()))
 }

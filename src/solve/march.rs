@@ -135,15 +135,16 @@ pub fn proceed<E>(
     Ok(march.outcome)
 }
 
-/// The time up to which no driven edge travels farther than [`Model::stride`], at most `wanted`; `None` where a drive outruns that by
+/// The time up to which no driven edge, or body in flight, travels farther than [`Model::stride`], at most `wanted`; `None` where a drive outruns that by
 /// more than [`MOST_HALVINGS`].
-fn within_stride(model: &Model, time: f64, wanted: f64) -> Option<f64> {
+fn within_stride(model: &Model, state: &State, wanted: f64) -> Option<f64> {
+    let (time, speed) = (state.time, state.rates.velocity.iter().fold(0.0_f64, |m, v| m.max(v.amax())));
     let travel = |until: f64| {
         let of = |motion: &Motion| match &motion.control {
             MotionControl::Displacement(table) => (table.at(until) - table.at(time)).abs(),
             MotionControl::Force(_) => 0.0,
         };
-        model.motions.iter().map(of).fold(0.0, f64::max)
+        model.motions.iter().map(of).fold(speed * (until - time), f64::max)
     };
     let mut halved = std::iter::successors(Some(wanted), |until| Some(time + 0.5 * (until - time)));
     halved.by_ref().take(MOST_HALVINGS).find(|until| travel(*until) <= model.stride)
@@ -185,7 +186,7 @@ impl March<'_, '_> {
             let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
             let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
-            let Some(next) = within_stride(self.model, time, wanted) else {
+            let Some(next) = within_stride(self.model, &self.outcome.state, wanted) else {
                 let stride = self.model.stride;
                 let reason =
                     format!("a driven edge moves so fast that steps of {stride:.1e} cannot follow it: take more steps");
@@ -259,8 +260,12 @@ impl March<'_, '_> {
         step.attempt(guess).map_err(|_| failure)
     }
 
-    /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach.
+    /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach, or where inertia or viscosity
+    /// says how the bodies move.
     fn cross(&mut self, until: f64) -> bool {
+        if self.model.has_rates() {
+            return false;
+        }
         let (model, start, interrupt) = (self.model, &self.outcome.state, self.interrupt);
         let drag = self.drag.get_or_insert_with(|| Drag::new(model));
         let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);
