@@ -2,5 +2,11 @@
 
 #[path = "dynamics/bars.rs"]
 mod bars;
+#[path = "dynamics/flight.rs"]
+mod flight;
+#[path = "dynamics/impact.rs"]
+mod impact;
+#[path = "dynamics/slow.rs"]
+mod slow;
 #[path = "dynamics/scene.rs"]
 mod scene;

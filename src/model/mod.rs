@@ -3,6 +3,7 @@
 mod assembly;
 mod body;
 mod build;
+mod continued;
 mod drag;
 mod equations;
 mod inertia;

@@ -141,7 +141,11 @@ impl Checkpoint {
         };
         let now = json(scene);
         let earlier = serde_json::from_value::<TimeSpec>(before["time"].clone());
-        if earlier.is_ok_and(|earlier| self.extends(&earlier, &scene.time)) {
+        // a relaxation time is a share of the end
+        let extends = |earlier: TimeSpec| {
+            self.extends(&earlier, &scene.time) && (scene.solution.viscosity == 0.0 || earlier.end == scene.time.end)
+        };
+        if earlier.is_ok_and(extends) {
             before["time"] = now["time"].clone();
         }
         let mut found = vec![];

@@ -57,7 +57,12 @@ fn first_mode(elements: usize, radius: f64, periods: f64, steps: usize) -> (Vec<
             v.y = 1e-3 * mode(x.y);
         }
     });
-    let top = found.mean(&found.nodes(|x| x.y > 0.999), 1);
+    let shape: Vec<f64> = found.model.reference().map(|x| mode(x.y)).collect();
+    let weights = asperity::bulk::lumped_areas(found.model.bodies[0].patch().expect("a block"));
+    let part = |u: &[asperity::geometry::Point]| {
+        u.iter().zip(&shape).zip(&weights).map(|((u, s), w)| 20.0 * w * u.y * s).sum()
+    };
+    let top = found.states.iter().map(|state| part(&state.u)).collect();
     (found.times(), top, found.last().numerical_loss / found.records[0].kinetic_energy)
 }
 
@@ -78,8 +83,8 @@ fn a_bar_vibrates_at_the_frequency_of_its_pressure_wave() {
 #[test]
 fn convergence_is_of_second_order_in_the_step() {
     for radius in [0.0, 0.5, 0.8, 1.0] {
-        let at = |steps: usize| *first_mode(8, radius, 0.8, steps).1.last().unwrap();
-        let values = [40, 80, 160, 320].map(at);
+        let at = |steps: usize| *first_mode(8, radius, 0.35, steps).1.last().unwrap();
+        let values = [100, 200, 400, 800].map(at);
         let rates: Vec<f64> = values.windows(3).map(|v| ((v[0] - v[1]) / (v[1] - v[2])).abs().log2()).collect();
         println!("radius {radius}: {values:?}, orders {rates:?}");
         assert!(rates.iter().all(|rate| (rate - 2.0).abs() < 0.1), "radius {radius}: {rates:?}");
@@ -104,9 +109,9 @@ fn energy_is_kept_at_radius_one() {
 #[test]
 fn fast_vibrations_shrink_by_the_spectral_radius() {
     for radius in [0.2, 0.5, 0.8, 1.0] {
-        let found = run_from(&bar(1, radius, 1e7, 12), |model, state| {
+        let found = run_from(&bar(1, radius, 1e4, 12), |model, state| {
             let places: Vec<_> = model.reference().collect();
-            state.rates.velocity.iter_mut().zip(places).for_each(|(v, x)| v.y = 1e-9 * x.y);
+            state.rates.acceleration.iter_mut().zip(places).for_each(|(a, x)| a.y = 1e-3 * x.y);
         });
         let top = found.mean(&found.nodes(|x| x.y > 0.999), 1);
         for u in top.windows(3).skip(2) {

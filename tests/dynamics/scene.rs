@@ -70,18 +70,10 @@ impl Run {
         self.states.iter().map(|state| state.time).collect()
     }
 
-    /// Momentum of all bodies at every state, in units of `density`: `sum M v`, by the lumped areas.
-    pub fn momentum(&self, density: f64) -> Vec<Point> {
-        let areas: Vec<f64> = self
-            .model
-            .bodies
-            .iter()
-            .flat_map(|body| match body.patch() {
-                Some(patch) => asperity::bulk::lumped_areas(patch),
-                None => vec![0.0; body.points.len()],
-            })
-            .collect();
-        let of = |state: &State| areas.iter().zip(&state.rates.velocity).map(|(a, v)| v * (density * a)).sum();
+    /// Momentum of all bodies at every state.
+    pub fn momentum(&self) -> Vec<Point> {
+        let inertia = self.model.inertia.as_ref().expect("a dynamic scene");
+        let of = |state: &State| inertia.times(&state.rates.velocity).iter().sum();
         self.states.iter().map(of).collect()
     }
 

@@ -1,0 +1,1 @@
+//! Slow motions: inertia fades, and the quasi-static result is left.
