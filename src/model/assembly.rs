@@ -115,10 +115,12 @@ pub(super) fn bulk(model: &Model, u: &[Point], step: Option<f64>) -> Option<Bulk
     Some(Bulk { forces, stiffness, strain_energy })
 }
 
-/// Longest step that the laws of all pairs accept at the end of the step found; infinite without opinion.
-pub fn suggested_step(model: &Model, start: &State, found: &Evaluation, dt: f64) -> f64 {
+/// Longest step that the laws of all pairs and viscosity accept at the end of the step found; infinite without opinion.
+pub fn suggested_step(model: &Model, start: &State, end: &State, found: &Evaluation) -> f64 {
+    let dt = end.time - start.time;
     let pairs = model.pairs.iter().zip(&start.pairs).zip(&found.interfaces);
-    pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt)).fold(f64::INFINITY, f64::min)
+    let laws = pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt));
+    laws.chain(model.viscosity.as_ref().map(|v| v.suggested_step(start, end, found))).fold(f64::INFINITY, f64::min)
 }
 
 /// Why a law gave no number in a trial evaluation of a step of length `dt`, with place and values; `None` where all did.

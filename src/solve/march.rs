@@ -231,7 +231,7 @@ impl March<'_, '_> {
         let rescued = found.is_err();
         let mut done = found.or_else(|failure| self.rescue(next, failure))?;
         let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
-        let law = suggested_step(self.model, start, &done.evaluation, dt);
+        let law = suggested_step(self.model, start, &done.state, &done.evaluation);
         if law < VETO * dt {
             return Err(StepFailure::Vetoed { taken: dt, step: law });
         }
