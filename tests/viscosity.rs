@@ -45,7 +45,7 @@ x = { displacement = 0.0 }
 y = { force = -0.1 }
 [time]
 end = 2.0
-steps = 40
+steps = 400
 [solution]
 viscosity = 0.125
 "#;
@@ -53,7 +53,7 @@ viscosity = 0.125
     let (tau, full) = (0.25, scene::run(&text.replace("0.125", "0.0")));
     let top = found.nodes(|x| x.y > 0.999);
     let (u, at_rest) = (found.mean(&top, 1), full.mean(&top, 1)[1]);
-    let dt = 0.05;
+    let dt = 0.005;
     for (k, pair) in u.windows(2).enumerate() {
         let (step, exact) =
             ((pair[0] * tau / dt + at_rest) / (1.0 + tau / dt), at_rest * (1.0 - (-(k as f64 + 1.0) * dt / tau).exp()));
@@ -97,20 +97,13 @@ fn viscosity_takes_what_a_snap_sets_free() {
     let snap = viscous(&setup, 0.0);
     let free = end(&snap).snap_loss;
     let shares = [3e-3, 1e-3, 3e-4].map(|viscosity| {
-        let clock = std::time::Instant::now();
         let found = viscous(&setup, viscosity);
-        let end = end(&found);
-        println!(
-            "{viscosity:e}: {:.5} of the snap, open {:.1e}, cuts {}, iterations {}, steps {}, {:.1} s",
-            end.viscous_loss / free,
-            (end.external_work - end.accounted()) / free,
-            found.outcome.cuts,
-            found.outcome.iterations,
-            found.outcome.steps,
-            clock.elapsed().as_secs_f64()
-        );
-        assert_eq!(found.outcome.snaps, 0);
-        end.viscous_loss / free
+        let open = (end(&found).external_work - end(&found).accounted()) / free;
+        assert!(found.outcome.snaps == 0 && open.abs() < 0.03, "{open}");
+        end(&found).viscous_loss / free
     });
-    println!("{shares:?}");
+    println!("viscous loss over the energy that the snap sets free: {shares:?}");
+    // away from the snap viscosity takes its share in proportion, at the snap it comes late by less and less
+    assert!(shares[0] > shares[1] && shares[1] > shares[2] && (shares[2] - 1.0).abs() < 0.05, "{shares:?}");
+    assert!((shares[2] - 1.0) < 0.4 * (shares[1] - 1.0), "{shares:?}");
 }

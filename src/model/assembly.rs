@@ -115,12 +115,14 @@ pub(super) fn bulk(model: &Model, u: &[Point], step: Option<f64>) -> Option<Bulk
     Some(Bulk { forces, stiffness, strain_energy })
 }
 
-/// Longest step that the laws of all pairs and viscosity accept at the end of the step found; infinite without opinion.
-pub fn suggested_step(model: &Model, start: &State, end: &State, found: &Evaluation) -> f64 {
+/// Longest step that the laws of all pairs and viscosity accept at the end of the step found, and who asks; infinite without opinion.
+pub fn suggested_step(model: &Model, start: &State, end: &State, found: &Evaluation) -> (f64, &'static str) {
     let dt = end.time - start.time;
     let pairs = model.pairs.iter().zip(&start.pairs).zip(&found.interfaces);
     let laws = pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt));
-    laws.chain(model.viscosity.as_ref().map(|v| v.suggested_step(start, end, found))).fold(f64::INFINITY, f64::min)
+    let law = laws.fold(f64::INFINITY, f64::min);
+    let viscous = model.viscosity.as_ref().map_or(f64::INFINITY, |v| v.suggested_step(start, end, found));
+    if viscous < law { (viscous, "viscosity") } else { (law, "the friction law") }
 }
 
 /// Why a law gave no number in a trial evaluation of a step of length `dt`, with place and values; `None` where all did.

@@ -55,7 +55,10 @@ impl RateForces {
     /// Work over a step by the trapezoidal rule: of inertia, and of viscosity.
     fn work(&self, end: &Self, moved: impl Fn(usize) -> Point) -> [f64; 2] {
         let work = |from: &[Point], to: &[Point]| -> f64 {
-            to.iter().enumerate().map(|(i, f)| 0.5 * (from.get(i).map_or(*f, |old| f + old)).dot(&moved(i))).sum()
+            to.iter()
+                .enumerate()
+                .map(|(i, f)| 0.5 * (f + from.get(i).copied().unwrap_or_default()).dot(&moved(i)))
+                .sum()
         };
         [work(&self.inertia, &end.inertia), work(&self.viscous, &end.viscous)]
     }

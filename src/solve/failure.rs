@@ -26,15 +26,17 @@ pub enum StepFailure {
     /// A friction law gave no number.
     #[error("a friction law gives no number {0}")]
     Law(String),
-    /// Converged, but too long for the friction law.
+    /// Converged, but too long for the friction law, or for viscosity.
     #[error(
-        "the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
+        "{by} asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
     )]
     Vetoed {
         /// Step that converged.
         taken: f64,
-        /// Longest step that the law accepts.
+        /// Longest step that it accepts.
         step: f64,
+        /// Who asks.
+        by: &'static str,
     },
     /// A motion under drag that found no equilibrium, see `solve::crossing`.
     #[error("moved on under drag the bodies do not come to rest")]

@@ -231,9 +231,9 @@ impl March<'_, '_> {
         let rescued = found.is_err();
         let mut done = found.or_else(|failure| self.rescue(next, failure))?;
         let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
-        let law = suggested_step(self.model, start, &done.state, &done.evaluation);
+        let (law, by) = suggested_step(self.model, start, &done.state, &done.evaluation);
         if law < VETO * dt {
-            return Err(StepFailure::Vetoed { taken: dt, step: law });
+            return Err(StepFailure::Vetoed { taken: dt, step: law, by });
         }
         let effort = Effort { iterations: self.outcome.iterations - before, wall_s: clock.elapsed().as_secs_f64() };
         self.tools.witness.accepted(self.model, start, &done, effort);

@@ -102,7 +102,7 @@ impl Audit {
         self.interface_force.take(step, record.force_imbalance);
         self.interface_moment.take(step, record.moment_imbalance);
         self.reaction.take(step, norm(difference(record.force, record.reaction_base)));
-        if let Some(friction) = self.expected.friction.filter(|_| record.fully_slipping) {
+        if let Some(friction) = self.expected.friction.filter(|_| record.fully_slipping && force != 0.0) {
             let shift = turn(record.mu_global.atan() - record.contact_angle);
             // slip in -x turns the force the other way
             self.identity.take(step, turn(shift.abs() - friction.atan()).abs() * force);

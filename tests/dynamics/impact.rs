@@ -15,17 +15,17 @@ fn bar(radius: f64, elements: usize, steps: usize, units: [f64; 3]) -> String {
 version = 1
 [material.m]
 type = "linear-elastic"
-youngs_modulus = {s}
+youngs_modulus = {s:e}
 poissons_ratio = 0.0
-density = {density}
+density = {density:e}
 [body.bar]
-shape = {{ type = "block", x = [0.0, {width}], y = [0.0, {l}] }}
+shape = {{ type = "block", x = [0.0, {width:e}], y = [0.0, {l:e}] }}
 material = "m"
 elements = [1, {elements}]
-position = [0.0, {gap}]
-velocity = [0.0, {velocity}]
+position = [0.0, {gap:e}]
+velocity = [0.0, {velocity:e}]
 [body.wall]
-shape = {{ type = "block", x = [-{l}, {l}], y = [-{l}, 0.0] }}
+shape = {{ type = "block", x = [-{l:e}, {l:e}], y = [-{l:e}, 0.0] }}
 rigid = true
 basis = {{ type = "nurbs", degree = 1 }}
 elements = [1, 1]
@@ -34,7 +34,7 @@ nonmortar = {{ body = "bar", edge = "bottom" }}
 mortar = {{ body = "wall", edge = "top" }}
 law = {{ type = "frictionless" }}
 [time]
-end = {end}
+end = {end:e}
 steps = {steps}
 [dynamics]
 spectral_radius = {radius}

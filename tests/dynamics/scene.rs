@@ -1,4 +1,5 @@
 //! Scenes as text, run through the library.
+#![allow(dead_code)] // each test binary uses its part
 
 use std::convert::Infallible;
 use std::path::Path;
@@ -6,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use asperity::geometry::Point;
 use asperity::math::CondensedSolver;
-use asperity::model::{InterfaceRow, Model, Record, State, interface_rows};
+use asperity::model::{Model, Record, State};
 use asperity::scene::{Scene, build, time_plan};
 use asperity::solve::{Outcome, Status, march};
 use asperity::verify::{Audit, Expectations, Finding};
@@ -16,7 +17,6 @@ pub struct Run {
     pub model: Model,
     pub records: Vec<Record>,
     pub states: Vec<State>,
-    pub rows: Vec<Vec<InterfaceRow>>,
     pub outcome: Outcome,
     pub findings: Vec<Finding>,
 }
@@ -38,19 +38,18 @@ pub fn run_from(text: &str, prepare: impl Fn(&Model, &mut State)) -> Run {
     let (scene, model) = model(text);
     let mut start = State::initial(&model);
     prepare(&model, &mut start);
-    let (mut records, mut states, mut rows) = (vec![], vec![start.clone()], vec![]);
+    let (mut records, mut states) = (vec![], vec![start.clone()]);
     let mut audit = Audit::new(Expectations::of(&model));
     let (quiet, mut solver) = (AtomicBool::new(false), CondensedSolver::default());
     let outcome = march(&model, start, &time_plan(&scene), &mut solver, &quiet, |report| {
         audit.take(&report.record);
-        rows.push(interface_rows(&model, report.evaluation, report.record.step));
         records.push(report.record);
         states.push(report.state.clone());
         Ok::<(), Infallible>(())
     });
     let outcome = outcome.unwrap_or_else(|e| match e {});
     assert_eq!(outcome.status, Status::Done, "{text}");
-    Run { model, records, states, rows, outcome, findings: audit.findings() }
+    Run { model, records, states, outcome, findings: audit.findings() }
 }
 
 impl Run {
