@@ -5,6 +5,7 @@ mod lumped;
 mod mass;
 mod material;
 mod projected;
+mod saint_venant;
 mod stiffness;
 mod volume;
 
@@ -13,4 +14,5 @@ pub use lumped::lumped_areas;
 pub use mass::masses;
 pub use material::{Dilatation, LinearElastic, Material, NeoHookean, StressResponse, lame};
 pub use projected::Tau;
+pub use saint_venant::SaintVenantKirchhoff;
 pub use volume::{VolumeSpace, confinement};

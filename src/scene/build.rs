@@ -10,7 +10,7 @@ use super::motion::{Course, Motion};
 use super::numerics::{Integration, Projection, Sites, Volumetric, stable_degrees};
 use super::rules::law_issue;
 use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
-use crate::bulk::{LinearElastic, Material, NeoHookean};
+use crate::bulk::{LinearElastic, Material, NeoHookean, SaintVenantKirchhoff};
 use crate::contact;
 use crate::geometry::{self, BSpline, Basis, Edge, GeometryError, Point};
 use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Table, Tangent, evaluate};
@@ -155,6 +155,9 @@ fn material_of(spec: &MaterialSpec) -> Arc<dyn Material> {
         }
         MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio, .. } => {
             Arc::new(LinearElastic { youngs_modulus, poissons_ratio })
+        }
+        MaterialSpec::SaintVenantKirchhoff { youngs_modulus, poissons_ratio } => {
+            Arc::new(SaintVenantKirchhoff { youngs_modulus, poissons_ratio })
         }
     }
 }

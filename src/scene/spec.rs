@@ -83,6 +83,16 @@ pub enum MaterialSpec {
         #[schemars(extend("exclusiveMinimum" = 0))]
         density: Option<f64>,
     },
+    /// Hooke's law between Green's strain and the second Piola-Kirchhoff stress: large rotations, small strains; softens under
+    /// compression. For comparison with codes that use it.
+    SaintVenantKirchhoff {
+        /// Young's modulus (stress).
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        youngs_modulus: f64,
+        /// Poisson's ratio.
+        #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
+        poissons_ratio: f64,
+    },
     /// Small strain: `sigma = lambda tr(eps) I + 2 mu eps`; for comparison with classical solutions.
     LinearElastic {
         /// Young's modulus (stress).

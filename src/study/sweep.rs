@@ -10,7 +10,7 @@ use std::time::Instant;
 use super::{Point, PointState, PointStatus, Study, StudyFolder};
 use crate::model::Record;
 use crate::output::{OutputError, RunFolder};
-use crate::scene::{self, RunReport, SceneError};
+use crate::scene::{self, Checkpoint, RunReport, SceneError};
 use crate::solve::Status;
 use crate::verify::Finding;
 
@@ -76,7 +76,7 @@ fn work<'p>(
     }
 }
 
-/// Computes one point into its folder, and leaves its status there.
+/// Computes one point into its folder, from where it was stopped if it was, and leaves its status there.
 pub fn compute(
     study: &Study,
     folder: &StudyFolder,
@@ -86,10 +86,11 @@ pub fn compute(
 ) -> PointStatus {
     let clock = Instant::now();
     let path = folder.point(point);
+    let stopped = matches!(folder.status(point).status, PointState::Interrupted | PointState::Running);
     let attempt = || {
         let run = RunFolder::create(&path)?;
         PointStatus::plain(PointState::Running).write(&path)?;
-        computed(study, point, &run, interrupt, watch)
+        computed(study, point, &run, stopped, interrupt, watch)
     };
     let over = catch_unwind(AssertUnwindSafe(attempt));
     let (status, reason) = match over {
@@ -108,6 +109,7 @@ fn computed(
     study: &Study,
     point: &Point,
     folder: &RunFolder,
+    stopped: bool,
     interrupt: &AtomicBool,
     watch: impl FnMut(&Record),
 ) -> Result<(PointState, String), OutputError> {
@@ -116,8 +118,12 @@ fn computed(
         Ok((scene, model))
     });
     match built {
-        // a point that was stopped begins again: points are short, and done or not done
-        Ok((scene, model)) => Ok(ending(&scene::run(&scene, &model, folder, interrupt, watch)?)),
+        Ok((scene, model)) => {
+            // a checkpoint that cannot be read costs the steps before it, no more
+            let kept = stopped.then(|| Checkpoint::load(folder, &scene, &model).ok().flatten()).flatten();
+            let start = kept.unwrap_or_else(|| Checkpoint::start(&scene, &model));
+            Ok(ending(&scene::resume(&scene, &model, folder, start, interrupt, watch)?))
+        }
         Err(error) => Ok((PointState::BadInput, in_one_line(&error))),
     }
 }
