@@ -2,6 +2,7 @@
 
 mod elements;
 mod lumped;
+mod mass;
 mod material;
 mod projected;
 mod saint_venant;
@@ -10,6 +11,7 @@ mod volume;
 
 pub use elements::{BulkForces, Elements};
 pub use lumped::lumped_areas;
+pub use mass::masses;
 pub use material::{Dilatation, LinearElastic, Material, NeoHookean, StressResponse, lame};
 pub use projected::Tau;
 pub use saint_venant::SaintVenantKirchhoff;

@@ -31,6 +31,15 @@ impl Table {
         self.value[next - 1] * (1.0 - share) + self.value[next] * share
     }
 
+    /// Slope right after time `t`.
+    pub fn slope(&self, t: f64) -> f64 {
+        let next = self.time.partition_point(|&s| s <= t);
+        if next == 0 || next == self.time.len() {
+            return 0.0;
+        }
+        (self.value[next] - self.value[next - 1]) / (self.time[next] - self.time[next - 1])
+    }
+
     /// True where the value never changes.
     pub fn is_constant(&self) -> bool {
         self.value.iter().all(|v| *v == self.value[0])
@@ -44,6 +53,15 @@ pub enum Control {
     Displacement(Table),
     /// Resultant force on the edge, which moves as one piece in this component.
     Force(Table),
+}
+
+impl Control {
+    /// Its course in time.
+    pub fn table(&self) -> &Table {
+        match self {
+            Self::Displacement(table) | Self::Force(table) => table,
+        }
+    }
 }
 
 /// One component of one edge.

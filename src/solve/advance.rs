@@ -66,7 +66,7 @@ impl Advance<'_, '_> {
             let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
             let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
-            let Some(next) = within_stride(self.model, time, wanted) else {
+            let Some(next) = within_stride(self.model, &self.outcome.state, wanted) else {
                 let stride = self.model.stride;
                 let reason =
                     format!("a driven edge moves so fast that steps of {stride:.1e} cannot follow it: take more steps");
@@ -139,9 +139,9 @@ impl Advance<'_, '_> {
         self.tried = step.tried;
         let mut done = found.or_else(|failure| self.rescue(next, failure))?;
         let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
-        let law = suggested_step(self.model, start, &done.evaluation, dt);
+        let (law, by) = suggested_step(self.model, start, &done.state, &done.evaluation);
         if law < VETO * dt {
-            return Err(StepFailure::Vetoed { taken: dt, step: law });
+            return Err(StepFailure::Vetoed { taken: dt, step: law, by });
         }
         self.inspect(&mut done, dt)?;
         let start = &self.outcome.state;
@@ -187,8 +187,12 @@ impl Advance<'_, '_> {
         found.map_err(|_| failure)
     }
 
-    /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach.
+    /// Goes over to the equilibrium behind a snap, before time `until`; false where there is none in reach, or where inertia or
+    /// viscosity says how the bodies move.
     fn cross(&mut self, until: f64) -> bool {
+        if self.model.has_rates() {
+            return false;
+        }
         let (model, start, interrupt) = (self.model, &self.outcome.state, self.interrupt);
         let drag = self.drag.get_or_insert_with(|| Drag::new(model));
         let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);

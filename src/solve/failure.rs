@@ -29,15 +29,17 @@ pub enum StepFailure {
     /// A friction law gave no number.
     #[error("a friction law gives no number {0}")]
     Law(String),
-    /// Converged, but too long for the friction law.
+    /// Converged, but too long for the friction law, or for viscosity.
     #[error(
-        "the friction law asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
+        "{by} asks for steps of {step:.3e}, the step taken was {taken:.3e}: its time scale is finer than the steps"
     )]
     Vetoed {
         /// Step that converged.
         taken: f64,
-        /// Longest step that the law accepts.
+        /// Longest step that it accepts.
         step: f64,
+        /// Who asks.
+        by: &'static str,
     },
     /// Converged to an equilibrium that is not stable: friction takes away this many times the tangential stiffness.
     #[error("found an equilibrium that is not stable (friction takes {0:.2} times the tangential stiffness)")]

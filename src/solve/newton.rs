@@ -229,12 +229,8 @@ impl Step<'_> {
     /// The trial state as the new committed one: internal variables, forces and work.
     pub fn converged(&mut self, mut trial: State, evaluation: Evaluation, residuals: Vec<f64>) -> NewtonReport {
         let share = weakening::share(self.model, self.start, &trial, &evaluation, self.solver);
-        for (pair, found) in trial.pairs.iter_mut().zip(&evaluation.interfaces) {
-            pair.sites.clone_from(&found.memory);
-            trial.ledger.dissipated += found.dissipated;
-        }
+        trial.commit(self.model, self.start, &evaluation);
         trial.trend = Some(trend(self.model, self.start, &trial));
-        trial.ledger.settle(self.model, self.start, &trial.u, trial.time, &evaluation);
         let iterations = residuals.len().saturating_sub(1);
         NewtonReport { state: trial, evaluation, iterations, residuals, rung: Rung::Newton, weakening: share }
     }
