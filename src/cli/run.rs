@@ -78,7 +78,8 @@ fn conclude(status: &Status, findings: &[Finding], out: &Path) -> Result<Exit, F
     }
 }
 
-fn default_folder(scene: &Path) -> PathBuf {
+/// `out/<name of the scene>`.
+pub fn default_folder(scene: &Path) -> PathBuf {
     Path::new("out").join(scene.file_stem().unwrap_or(scene.as_os_str()))
 }
 
