@@ -22,7 +22,7 @@ pub struct Family {
     pub dots: Vec<[f64; 2]>,
 }
 
-/// A figure of work and precision. Errors of zero are not drawn.
+/// A figure of work and precision; all numbers are above 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Precision {
     /// What the vertical axis shows.

@@ -2,7 +2,7 @@
 
 use super::norm::QUANTITIES;
 use super::search::{Ending, Found};
-use super::waste::wastes;
+use super::waste::{Waste, wastes};
 use super::{Aim, Measured, Trade, best_within, cheapest, write_scene};
 use crate::output::OutputError;
 
@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 pub const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
 /// What is recommended for unless something else is asked for.
 const USUAL: f64 = 0.01;
+/// Errors within this factor are near the one that is aimed at.
+const NEAR: f64 = 3.0;
 /// Wastes that are listed.
 const LISTED: usize = 6;
 
@@ -160,18 +162,18 @@ impl<'a> Advice<'a> {
     }
 
     fn wasted(&self) -> String {
-        let list = wastes(self.trade, self.found);
-        let line = |(label, ratio, target): &(String, f64, f64)| {
-            format!("- {label}: {ratio:.1} times the CPU time at {}\n", percent(*target))
+        let range = match self.aim {
+            Aim::Error(target) => [target / NEAR, target * NEAR],
+            _ => [0.0, TARGETS[0]],
         };
-        match list.is_empty() {
+        let line =
+            |waste: &Waste| format!("- {}: {:.1} times, at {}\n", waste.choice, waste.ratio, percent(waste.error));
+        let lines: String = wastes(self.trade, self.found, range).iter().take(LISTED).map(line).collect();
+        match lines.is_empty() {
             true => String::new(),
-            false => {
-                let lines: String = list.iter().take(LISTED).map(line).collect();
-                format!(
-                    "Choices that waste most (cheapest settings with this choice against the cheapest of all at the same error):\n\n{lines}"
-                )
-            }
+            false => format!(
+                "What wastes most: CPU time over that of the cheapest settings of equal or smaller error, where the choice does best\n\n{lines}"
+            ),
         }
     }
 

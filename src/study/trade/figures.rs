@@ -35,7 +35,7 @@ fn figure(trade: &Trade, found: &Found, y_label: &str, quantities: &[usize]) -> 
         .iter()
         .map(|point| {
             let error = quantities.iter().map(|k| point.errors[*k]).fold(0.0, f64::max);
-            let drawn = point.role == Role::Candidate && point.done() && error > 0.0;
+            let drawn = point.role == Role::Candidate && point.done() && error > 0.0 && error < 1.0;
             Cost { cpu_s: point.status.cpu_s, error: if drawn { error } else { f64::NAN } }
         })
         .collect();

@@ -148,7 +148,7 @@ impl<'a> Laboratory<'a> {
             self.warm = true;
         }
         let (clock, exceeded) = (ThreadTime::now(), Cell::new(false));
-        memory::reset();
+        let before = memory::Before::run();
         let mut status = compute_scene(
             || scene.clone(),
             &self.trade.base_dir,
@@ -168,7 +168,7 @@ impl<'a> Laboratory<'a> {
         } else if status.status == PointState::Interrupted {
             return Err(Stop::Interrupted);
         }
-        status.memory_mb = memory::peak_mb();
+        status.memory_mb = before.peak_mb();
         status.write(path)?;
         Ok(status)
     }

@@ -14,7 +14,7 @@ pub const BASES: [BasisSpec; 6] = [
 ];
 
 /// Factors on the nominal steps of a scene, in octaves.
-const STEPS: [i32; 2] = [-2, 1];
+const STEPS: [i32; 2] = [-1, 1];
 /// Factors on the grading of a scene, in octaves.
 const GRADING: [i32; 2] = [-2, 3];
 /// Failures after which a kind of change is not tried any more.
@@ -61,8 +61,6 @@ impl Move {
                     Choice::LargerR => Some(Choice::SmallerR),
                     Choice::TwoPoints => Some(Choice::TwicePoints),
                     Choice::TwicePoints => Some(Choice::TwoPoints),
-                    // nodal solutions do not depend on r
-                    Choice::Sites => None,
                     _ => None,
                 };
                 if !there {
@@ -77,24 +75,48 @@ impl Move {
     }
 }
 
-/// Which moves have been of use so far: one that failed twice in a row is given up.
-pub(super) struct Experience(Vec<(Move, u32)>);
+/// Which moves have been of use so far, apart for each half decade of the error they started from: one that failed twice in a row is
+/// given up there, and tried once in each of the others. Sizes and steps are always tried.
+pub(super) struct Experience(Vec<Tried>);
+
+/// How often a move failed since it was last of use.
+struct Tried {
+    step: Move,
+    strikes: u32,
+    /// Half decades in which it failed, with the number of failures.
+    local: Vec<(i32, u32)>,
+}
 
 impl Experience {
     /// Nothing tried yet.
     pub fn new() -> Self {
-        Self(Move::all().into_iter().map(|step| (step, 0)).collect())
+        Self(Move::all().into_iter().map(|step| Tried { step, strikes: 0, local: vec![] }).collect())
     }
 
-    /// Moves that are still worth trying.
-    pub fn hopeful(&self) -> impl Iterator<Item = Move> {
-        self.0.iter().filter(|(_, strikes)| *strikes < STRIKES).map(|(step, _)| *step)
+    /// Moves that are still worth trying from a setting of this error.
+    pub fn hopeful(&self, error: f64) -> impl Iterator<Item = Move> {
+        let here = half_decade(error);
+        let hopeful = move |tried: &&Tried| {
+            let local = tried.local.iter().find(|(place, _)| *place == here).map_or(0, |(_, strikes)| *strikes);
+            let allowed = if tried.strikes < STRIKES { STRIKES } else { 1 };
+            matches!(tried.step, Move::Elements(_) | Move::Steps(_)) || local < allowed
+        };
+        self.0.iter().filter(hopeful).map(|tried| tried.step)
     }
 
-    /// Notes how a move went.
-    pub fn learn(&mut self, tried: Move, useful: bool) {
-        for (_, strikes) in self.0.iter_mut().filter(|(step, _)| *step == tried) {
-            *strikes = if useful { 0 } else { *strikes + 1 };
+    /// Notes how a move from a setting of this error went.
+    pub fn learn(&mut self, tried: Move, error: f64, useful: bool) {
+        let here = half_decade(error);
+        for tried in self.0.iter_mut().filter(|known| known.step == tried) {
+            tried.strikes = if useful { 0 } else { tried.strikes + 1 };
+            match tried.local.iter_mut().find(|(place, _)| *place == here) {
+                Some((_, strikes)) => *strikes = if useful { 0 } else { *strikes + 1 },
+                None => tried.local.push((here, u32::from(!useful))),
+            }
         }
     }
+}
+
+fn half_decade(error: f64) -> i32 {
+    (2.0 * error.log10()).floor() as i32
 }

@@ -19,14 +19,14 @@ use crate::output::OutputError;
 const REFERENCE_SHARE: f64 = 0.35;
 /// Share of the effort that any other run may take.
 const RUN_SHARE: f64 = 0.12;
-/// Finest sizes that are looked at (half octaves), the first that can be afforded.
-const FINEST: [i32; 4] = [4, 2, 0, -2];
+/// Finest sizes that are looked at (half octaves): the first whose reference can be afforded.
+const FINEST: [i32; 3] = [2, 0, -2];
 /// Sizes below the finest one at which all bases are compared: octaves.
 const CROSSED: [i32; 3] = [-4, -2, 0];
 /// Coarsest size, and that of the first run.
 const COARSEST: i32 = -4;
 /// Settings with larger errors are not improved upon.
-const HOPELESS: f64 = 0.5;
+const HOPELESS: f64 = 0.15;
 
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -253,7 +253,7 @@ fn explore(laboratory: &mut Laboratory, found: &mut Found, wish: &Wish, finest: 
     let other = Setting { choices: BTreeSet::from([Choice::Material]), ..sized(basis, finest - 2) };
     laboratory.measure(&other, Role::OtherModel, RUN_SHARE * wish.effort)?;
     judge(laboratory, found);
-    let (mut experience, mut tried) = (Experience::new(), BTreeSet::new());
+    let (mut experience, mut tried, mut refused) = (Experience::new(), BTreeSet::new(), false);
     loop {
         let mut places = front(&found.costs());
         places.retain(|k| found.error(&found.points[*k]) < HOPELESS);
@@ -262,20 +262,25 @@ fn explore(laboratory: &mut Laboratory, found: &mut Found, wish: &Wish, finest: 
             let from = &found.points[*place].setting;
             let fresh = |step: super::moves::Move| {
                 let setting = step.from(from, [COARSEST - 2, finest])?;
-                let worthwhile =
-                    worthwhile(laboratory, found, wish, &setting) && !tried.contains(&format!("{setting:?}"));
+                let worthwhile = worthwhile(laboratory, found, &setting) && !tried.contains(&format!("{setting:?}"));
                 worthwhile.then_some((step, setting))
             };
-            experience.hopeful().find_map(fresh)
+            let moved = experience.hopeful(found.bound(&found.points[*place])).find_map(fresh);
+            moved.map(|(step, setting)| (step, setting, found.bound(&found.points[*place])))
         });
-        let Some((step, setting)) = next else {
-            return Ok(if laboratory.spent > 0.9 * wish.effort { Ending::EffortSpent } else { Ending::Complete });
+        let Some((step, setting, start)) = next else {
+            return Ok(if refused { Ending::EffortSpent } else { Ending::Complete });
         };
         tried.insert(format!("{setting:?}"));
         let known = laboratory.points.len();
-        let Some(point) = attempt(laboratory, wish, &setting)?.filter(|point| *point >= known) else { continue };
-        judge(laboratory, found);
-        experience.learn(step, front(&found.costs()).contains(&point));
+        let Some(point) = attempt(laboratory, wish, &setting)? else {
+            refused |= setting.changes(&laboratory.trade.scene).is_some();
+            continue;
+        };
+        if point >= known {
+            judge(laboratory, found);
+            experience.learn(step, start, front(&found.costs()).contains(&point));
+        }
     }
 }
 
@@ -290,11 +295,11 @@ fn distance(found: &Found, aim: Aim, point: usize) -> f64 {
 }
 
 /// False for settings that are expected to cost more than one whose error cannot be told from zero.
-fn worthwhile(laboratory: &Laboratory, found: &Found, wish: &Wish, setting: &Setting) -> bool {
+fn worthwhile(laboratory: &Laboratory, found: &Found, setting: &Setting) -> bool {
     let expected = laboratory.expected(setting).unwrap_or(f64::INFINITY);
     let at_floor = |point: &&Measured| {
         point.role == Role::Candidate && point.done() && found.bound(point) <= found.floor() * (1.0 + 1e-9)
     };
     let enough = found.points.iter().filter(at_floor).map(|point| point.status.cpu_s).fold(f64::INFINITY, f64::min);
-    expected <= (wish.effort - laboratory.spent) && expected <= 1.5 * enough
+    expected <= 1.5 * enough
 }

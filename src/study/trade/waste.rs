@@ -1,39 +1,47 @@
 //! Which choice costs most without making up for it.
 
+use std::collections::BTreeMap;
+
 use super::Trade;
-use super::advice::TARGETS;
-use super::front::{Cost, cheapest};
+use super::front::cheapest;
 use super::measure::Measured;
 use super::search::Found;
 
 /// Ratios below this are noise of the clock.
 const NOISE: f64 = 1.2;
 
-/// Choice, how many times the CPU time of the best settings it takes, and at which error; the worst first. Each choice at the wanted
-/// error at which it wastes most, among those that it reaches at all.
-pub(super) fn wastes(trade: &Trade, found: &Found) -> Vec<(String, f64, f64)> {
-    let costs = found.costs();
-    let mut labels: Vec<String> = found.points.iter().flat_map(|point| labels(trade, point)).collect();
-    labels.sort();
-    labels.dedup();
-    let worst = |label: String| {
-        let own = |(point, cost): (&Measured, &Cost)| {
-            let has = labels_of(trade, point, &label);
-            Cost { error: if has { cost.error } else { f64::NAN }, ..*cost }
-        };
-        let own: Vec<Cost> = found.points.iter().zip(&costs).map(own).collect();
-        let ratio =
-            |target: f64| Some((own[cheapest(&own, target)?].cpu_s / costs[cheapest(&costs, target)?].cpu_s, target));
-        let (ratio, target) = TARGETS.into_iter().filter_map(ratio).max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((label, ratio, target))
-    };
-    let mut list: Vec<_> = labels.into_iter().filter_map(worst).filter(|(_, ratio, _)| *ratio > NOISE).collect();
-    list.sort_by(|a, b| b.1.total_cmp(&a.1));
-    list
+/// A choice at its best: where it comes nearest to the best settings of equal error.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Waste {
+    /// The choice.
+    pub choice: String,
+    /// Its CPU time over that of the cheapest settings of at most the same error.
+    pub ratio: f64,
+    /// That error.
+    pub error: f64,
 }
 
-fn labels_of(trade: &Trade, point: &Measured, label: &str) -> bool {
-    labels(trade, point).iter().any(|own| own == label)
+/// Choices that are dear even at their best among the settings with errors in a range; the worst first.
+pub(super) fn wastes(trade: &Trade, found: &Found, range: [f64; 2]) -> Vec<Waste> {
+    let costs = found.costs();
+    let mut best: BTreeMap<String, Waste> = BTreeMap::new();
+    for (point, cost) in found.points.iter().zip(&costs) {
+        if !(range[0]..=range[1]).contains(&cost.error) {
+            continue;
+        }
+        let Some(rival) = cheapest(&costs, cost.error) else { continue };
+        let ratio = cost.cpu_s / costs[rival].cpu_s;
+        for choice in labels(trade, point) {
+            let waste = Waste { choice: choice.clone(), ratio, error: cost.error };
+            let known = best.entry(choice).or_insert_with(|| waste.clone());
+            if ratio < known.ratio {
+                *known = waste;
+            }
+        }
+    }
+    let mut list: Vec<Waste> = best.into_values().filter(|waste| waste.ratio > NOISE).collect();
+    list.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+    list
 }
 
 /// Names of the choices of a setting, apart from the number of elements.
