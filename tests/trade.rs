@@ -145,7 +145,7 @@ fn measured(run: &Path, reference: &Path) -> f64 {
 #[test]
 fn recommended_settings_meet_the_target_and_nothing_is_computed_twice() {
     let folder = folder("whole");
-    let trade = ["trade", "scene.toml", "--quantity", "fx,fy", "--error", "0.02", "--effort", "8", "--out", "out"];
+    let trade = ["trade", "scene.toml", "--quantity", "fx,fy", "--error", "0.02", "--effort", "5", "--out", "out"];
     let first = asperity(&folder, &trade);
     assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
     let said = String::from_utf8(first.stdout).unwrap();
@@ -197,7 +197,7 @@ fn what_cannot_be_done_is_said() {
     let folder = folder("refused");
     let cases: [(&[&str], i32, &str); 7] = [
         (&["--quantity", "fz"], 2, "mu_global"),
-        (&["--error", "-1"], 2, "above 0"),
+        (&["--error", "0"], 2, "above 0"),
         (&["--error", "0.1", "--budget", "1"], 2, "cannot be used with"),
         (&["--effort", "nan"], 2, "above 0"),
         (&["--set", "time.steps=0"], 2, "time.steps"),

@@ -95,7 +95,7 @@ impl<'a> Laboratory<'a> {
     /// Measures a setting; the number of its point, which may be an earlier one that is the same scene. `None` where the
     /// setting cannot be had. A run that takes more than `limit` seconds of CPU time is given up.
     pub fn measure(&mut self, setting: &Setting, role: Role, limit: f64) -> Result<Option<usize>, Stop> {
-        let (scene, changes) = (&self.trade.scene, setting.changes(&self.trade.scene));
+        let (scene, changes) = (&self.trade.scene, setting.changes(self.trade));
         let (Some(changes), Some(steps)) = (changes, setting.step_count(scene)) else { return Ok(None) };
         let scene = self.scene(setting);
         let folder = match &scene {
@@ -109,13 +109,13 @@ impl<'a> Laboratory<'a> {
         let mut status = PointStatus::read(&path);
         let given_up = |status: &PointStatus| status.status == PointState::Interrupted && status.cpu_s > limit;
         if !(status.status.is_final() || given_up(&status)) {
-            (self.watch)(Event::Started(&setting.words(&self.trade.scene), steps));
+            (self.watch)(Event::Started(&setting.words(self.trade), steps));
             status = self.compute(&scene, &path, limit)?;
         }
         let mut point = Measured {
             setting: setting.clone(),
             changes,
-            words: setting.words(&self.trade.scene),
+            words: setting.words(self.trade),
             role,
             folder,
             status,

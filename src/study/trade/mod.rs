@@ -1,10 +1,10 @@
 //! The trade of speed for accuracy: one scene under many numerical choices, each with its error and its cost.
 //!
 //! ```text
-//! scene  ->  basis x element size  ->  reference and its own error  ->  one choice at a time, from the Pareto front  ->  advice
+//! scene  ->  basis x size x integration  ->  reference and its own error  ->  one choice at a time, from the Pareto front  ->  advice
 //! ```
 //!
-//! 1. Every basis at several element sizes, at the steps of the scene.
+//! 1. Every basis at several element sizes, with element- and segment-wise integration, at the steps of the scene.
 //! 2. The reference: the basis whose two finest sizes differ least, refined once more in space and in time. Its own error is estimated
 //!    from its last levels ([`Estimate`]); smaller errors than that cannot be told apart, so the `bound` of a setting is
 //!    `max(error, own) + own`, the largest over the quantities asked for.
@@ -32,7 +32,10 @@ mod waste;
 
 use std::path::{Path, PathBuf};
 
-use crate::scene::{Grammar, Scene, SceneError, Source, build};
+use crate::contact;
+use crate::geometry::BasisSpec;
+use crate::model::{Model, Pair};
+use crate::scene::{ContactSpec, Grammar, Projection, Scene, SceneError, Source, build};
 
 pub use advice::{Advice, TARGETS};
 pub use figures::write_figures;
@@ -53,6 +56,8 @@ pub struct Trade {
     scene: Scene,
     base_dir: PathBuf,
     grammar: Grammar,
+    /// Whether the mortar edge has corners of its own, whatever its basis.
+    cornered: bool,
 }
 
 /// What is wanted of the search.
@@ -85,8 +90,9 @@ impl Trade {
     pub fn load(file: &Path, sets: &[String]) -> Result<Self, SceneError> {
         let (scene, base) = Scene::load(file, sets)?;
         let base_dir = file.parent().unwrap_or(Path::new(".")).to_path_buf();
-        build(&scene, &base_dir).map_err(|error| base.locate(error))?;
-        Ok(Self { base, scene, base_dir, grammar: Scene::grammar() })
+        let model = build(&scene, &base_dir).map_err(|error| base.locate(error))?;
+        let cornered = cornered(&scene, &model);
+        Ok(Self { base, scene, base_dir, grammar: Scene::grammar(), cornered })
     }
 
     /// The scene as it was given.
@@ -99,9 +105,20 @@ impl Trade {
     /// # Errors
     /// A key that the scene does not have.
     fn source(&self, setting: &Setting) -> Option<Result<Source, SceneError>> {
-        let changes = setting.changes(&self.scene)?;
+        let changes = setting.changes(self)?;
         let mut source = self.base.clone();
         let mut put = |(path, value): &Change| source.put(&self.grammar, path, value, &format!("{path} of the trade"));
         Some(changes.iter().try_for_each(&mut put).map(|()| source))
     }
+}
+
+/// Whether the mortar edge of the first pair has corners although its basis is smooth, as the program itself found.
+fn cornered(scene: &Scene, model: &Model) -> bool {
+    let smooth = |contact: &ContactSpec| {
+        let body = scene.body.get(&contact.mortar.body);
+        let auto = contact.numerics.projection == Projection::Auto;
+        auto && body.is_some_and(|body| matches!(body.basis, BasisSpec::Nurbs { degree: 2.. }))
+    };
+    let ray = |pair: &Pair| pair.contact.numerics().projection == contact::Projection::Ray;
+    scene.contact.first().is_some_and(smooth) && model.pairs.first().is_some_and(ray)
 }

@@ -164,11 +164,14 @@ fn reasons(points: &[Measured]) -> String {
     said.join("; ")
 }
 
-/// Every basis at every size.
+/// Every basis at every size, with both integrations.
 fn cross(laboratory: &mut Laboratory, wish: &Wish, finest: i32) -> Result<(), Stop> {
     for below in CROSSED {
         for basis in BASES {
-            attempt(laboratory, wish, &sized(basis, finest + below))?;
+            let usual = sized(basis, finest + below);
+            let other = Setting { choices: BTreeSet::from([Choice::Integration]), ..usual.clone() };
+            attempt(laboratory, wish, &usual)?;
+            attempt(laboratory, wish, &other)?;
         }
     }
     Ok(())
@@ -274,7 +277,7 @@ fn explore(laboratory: &mut Laboratory, found: &mut Found, wish: &Wish, finest: 
         tried.insert(format!("{setting:?}"));
         let known = laboratory.points.len();
         let Some(point) = attempt(laboratory, wish, &setting)? else {
-            refused |= setting.changes(&laboratory.trade.scene).is_some();
+            refused |= setting.changes(laboratory.trade).is_some();
             continue;
         };
         if point >= known {

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use toml::Value;
 
+use super::Trade;
 use crate::geometry::{BasisSpec, Edge};
 use crate::output::tables::number;
 use crate::scene::{BodySpec, Integration, KeyPath, MaterialSpec, Numerics, Projection, Scene, Sites, Solver};
@@ -77,8 +78,8 @@ pub type Change = (KeyPath, Value);
 
 impl Setting {
     /// What it changes in a scene; `None` where it cannot be had there or would change nothing that it names.
-    pub fn changes(&self, scene: &Scene) -> Option<Vec<Change>> {
-        let mut changes = vec![];
+    pub fn changes(&self, trade: &Trade) -> Option<Vec<Change>> {
+        let (scene, mut changes) = (&trade.scene, vec![]);
         for (name, body) in &scene.body {
             let key = KeyPath::of("body").at(name);
             if let Some(basis) = self.basis.filter(|_| !body.rigid) {
@@ -96,7 +97,7 @@ impl Setting {
             changes.push((KeyPath::of("time").at("steps"), Value::Integer(self.step_count(scene)? as i64)));
         }
         for choice in &self.choices {
-            changes.extend(self.chosen(*choice, scene)?);
+            changes.extend(self.chosen(*choice, trade)?);
         }
         Some(changes)
     }
@@ -114,7 +115,8 @@ impl Setting {
     }
 
     /// In words: basis, size, steps, and what else differs from the scene.
-    pub fn words(&self, scene: &Scene) -> String {
+    pub fn words(&self, trade: &Trade) -> String {
+        let scene = &trade.scene;
         let factor = |octaves: f64| number((100.0 * octaves.exp2()).round() / 100.0);
         let elements = format!("elements x {}", factor(0.5 * f64::from(self.elements)));
         let mut said = vec![self.basis_words(scene), elements];
@@ -122,7 +124,7 @@ impl Setting {
         if self.grading != 0 {
             said.push(format!("grading x {}", factor(f64::from(self.grading))));
         }
-        said.extend(self.choice_words(scene));
+        said.extend(self.choice_words(trade));
         said.join(", ")
     }
 
@@ -135,8 +137,8 @@ impl Setting {
     }
 
     /// What is chosen otherwise than in the scene: keys with their values, each once.
-    pub fn choice_words(&self, scene: &Scene) -> Vec<String> {
-        let changes = self.choices.iter().filter_map(|choice| self.chosen(*choice, scene)).flatten();
+    pub fn choice_words(&self, trade: &Trade) -> Vec<String> {
+        let changes = self.choices.iter().filter_map(|choice| self.chosen(*choice, trade)).flatten();
         let mut said: Vec<String> = vec![];
         for (path, value) in changes {
             let text = format!("{} {}", path.segments().last().map_or("", String::as_str), plain(&value));
@@ -185,7 +187,8 @@ impl Setting {
     }
 
     /// What one choice changes: a key of all contacts, of the solution, or of all materials.
-    fn chosen(&self, choice: Choice, scene: &Scene) -> Option<Vec<Change>> {
+    fn chosen(&self, choice: Choice, trade: &Trade) -> Option<Vec<Change>> {
+        let scene = &trade.scene;
         let everywhere = |key: &str, value: Value| {
             let path = |k: usize| KeyPath::of("contact").at(k).at("numerics").at(key);
             Some((0..scene.contact.len()).map(|k| (path(k), value.clone())).collect::<Vec<_>>())
@@ -202,8 +205,8 @@ impl Setting {
                 let degree = lower_multiplier(self.basis_in(scene)).filter(|_| numerics.multiplier_degree.is_none())?;
                 everywhere("multiplier_degree", Value::Integer(degree as i64))
             }
-            Choice::Projection => everywhere("projection", Value::from(self.other_projection(numerics, scene))),
-            Choice::Integration => everywhere("integration", Value::from(self.other_integration(numerics, scene))),
+            Choice::Projection => everywhere("projection", Value::from(self.other_projection(numerics, trade))),
+            Choice::Integration => everywhere("integration", Value::from(self.other_integration(numerics, trade))),
             Choice::TwoPoints => everywhere("points", Value::Integer(2)),
             Choice::TwicePoints => {
                 let usual = numerics.points.unwrap_or((self.basis_in(scene).degree() + 1).max(3));
@@ -221,24 +224,29 @@ impl Setting {
         (numerics.sites == Sites::Quadrature) != self.choices.contains(&Choice::Sites)
     }
 
-    /// True where curves of the mortar side have corners between elements.
-    fn cornered(&self, scene: &Scene) -> bool {
-        !matches!(self.basis_in(scene), BasisSpec::Nurbs { degree: 2.. })
+    /// Whether the curves of the mortar side have corners, and their degree.
+    fn mortar(&self, trade: &Trade) -> (bool, usize) {
+        let scene = &trade.scene;
+        let body = scene.contact.first().and_then(|contact| scene.body.get(&contact.mortar.body));
+        let basis = match body {
+            Some(body) if body.rigid => body.basis,
+            _ => self.basis_in(scene),
+        };
+        (trade.cornered || !matches!(basis, BasisSpec::Nurbs { degree: 2.. }), basis.degree())
     }
 
-    fn other_projection(&self, numerics: &Numerics, scene: &Scene) -> &'static str {
+    fn other_projection(&self, numerics: &Numerics, trade: &Trade) -> &'static str {
         match numerics.projection {
             Projection::Ray => "closest",
-            Projection::Auto if self.cornered(scene) => "closest",
+            Projection::Auto if self.mortar(trade).0 => "closest",
             Projection::Closest | Projection::Auto => "ray",
         }
     }
 
-    fn other_integration(&self, numerics: &Numerics, scene: &Scene) -> &'static str {
-        let quadratic = self.cornered(scene) && self.basis_in(scene).degree() > 1;
+    fn other_integration(&self, numerics: &Numerics, trade: &Trade) -> &'static str {
         match numerics.integration {
             Integration::Segment => "element",
-            Integration::Auto if quadratic => "element",
+            Integration::Auto if matches!(self.mortar(trade), (true, 2..)) => "element",
             Integration::Element | Integration::Auto => "segment",
         }
     }

@@ -67,6 +67,6 @@ fn setting(trade: &Trade, point: &Measured) -> [String; 6] {
         number((0.5 * f64::from(setting.elements)).exp2()),
         number(f64::from(setting.grading).exp2()),
         setting.step_count(scene).unwrap_or_default().to_string(),
-        setting.choice_words(scene).join("; "),
+        setting.choice_words(trade).join("; "),
     ]
 }

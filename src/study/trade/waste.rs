@@ -47,7 +47,7 @@ pub(super) fn wastes(trade: &Trade, found: &Found, range: [f64; 2]) -> Vec<Waste
 /// Names of the choices of a setting, apart from the number of elements.
 fn labels(trade: &Trade, point: &Measured) -> Vec<String> {
     let (setting, scene) = (&point.setting, trade.scene());
-    let mut labels = setting.choice_words(scene);
+    let mut labels = setting.choice_words(trade);
     labels.push(setting.basis_words(scene));
     labels.extend(setting.step_count(scene).map(|steps| format!("{steps} steps")));
     if setting.grading != 0 {
