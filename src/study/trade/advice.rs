@@ -1,7 +1,7 @@
 //! What the figures of a trade come to, in words.
 
+use super::found::{Ending, Found};
 use super::norm::QUANTITIES;
-use super::search::{Ending, Found};
 use super::waste::{Waste, wastes};
 use super::{Aim, Measured, Trade, best_within, cheapest, write_scene};
 use crate::output::OutputError;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use super::found::Found;
 use super::front::{Cost, front};
 use super::norm::QUANTITIES;
-use super::search::Found;
 use super::setting::Setting;
 use super::{Role, Trade};
 use crate::output::figures::precision::{Family, Precision};

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use cpu_time::ThreadTime;
 use serde_json::Value as Json;
 
+use super::found::Stop;
 use super::norm::{self, Curve, QUANTITIES};
-use super::search::Stop;
 use super::setting::{Change, Setting};
 use super::{Trade, memory};
 use crate::output::{OutputError, fingerprint};

@@ -16,8 +16,11 @@
 //! on stored figures only, the same command again computes nothing.
 
 mod advice;
+mod explore;
 mod figures;
+mod found;
 mod front;
+mod levels;
 mod measure;
 mod memory;
 mod moves;
@@ -39,13 +42,14 @@ use crate::scene::{ContactSpec, Grammar, Projection, Scene, SceneError, Source, 
 
 pub use advice::{Advice, TARGETS};
 pub use figures::write_figures;
+pub use found::{Ending, Found, Stop};
 pub use front::{Cost, best_within, cheapest, front};
 pub use measure::{Event, Measured, Role};
 pub use moves::BASES;
 pub use norm::{Curve, QUANTITIES, error};
 pub use recommended::write_scene;
 pub use reference::Estimate;
-pub use search::{Ending, Found, Stop, search};
+pub use search::search;
 pub use setting::{Change, Choice, Setting};
 pub use table::write_table;
 

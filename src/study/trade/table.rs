@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use super::found::Found;
 use super::measure::{Measured, Role};
 use super::norm::QUANTITIES;
-use super::search::Found;
 use super::{Trade, front};
 use crate::output::OutputError;
 use crate::output::run_json::write_atomic;

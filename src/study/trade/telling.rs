@@ -47,6 +47,5 @@ fn vanishes(run: &Measured, k: usize) -> bool {
         "mu_global" => peak(&"fx") / peak(&"fy"),
         _ => run.curves[k].peak(),
     };
-    // also where nothing is known (nan)
-    !(own > NOTHING * largest)
+    own.is_nan() || own <= NOTHING * largest
 }

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::Trade;
+use super::found::Found;
 use super::front::cheapest;
 use super::measure::Measured;
-use super::search::Found;
 
 /// Ratios below this are noise of the clock.
 const NOISE: f64 = 1.2;
