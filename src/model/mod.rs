@@ -7,6 +7,7 @@ mod drag;
 mod equations;
 mod linearised;
 mod loaded;
+mod mirror;
 mod motion;
 mod record;
 mod state;
@@ -19,6 +20,7 @@ pub use drag::Drag;
 pub use equations::{Dof, Equations};
 pub use linearised::Linearised;
 pub use loaded::{Loaded, load};
+pub use mirror::Mirror;
 pub use motion::{Control, Motion, Table};
 pub use record::{InterfaceRow, Record, interface_rows, record, resistance};
 pub use state::{Ledger, PairState, State, Trend};
@@ -91,6 +93,11 @@ pub struct Model {
 }
 
 impl Model {
+    /// True where a state follows from what drives the bodies at that time and not from what was before: nothing rubs.
+    pub fn forgets(&self) -> bool {
+        self.pairs.iter().all(|pair| !pair.contact.rubs())
+    }
+
     /// Number of control points of all bodies.
     pub fn nodes(&self) -> usize {
         self.bodies.last().map_or(0, |b| b.offset + b.points.len())

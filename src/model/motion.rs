@@ -29,6 +29,16 @@ impl Table {
         self.value[next - 1] * (1.0 - share) + self.value[next] * share
     }
 
+    /// Largest magnitude of all values.
+    pub fn largest(&self) -> f64 {
+        self.value.iter().fold(0.0, |m, v| m.max(v.abs()))
+    }
+
+    /// True where the values at two times are the same but for round-off.
+    pub fn agrees(&self, a: f64, b: f64) -> bool {
+        (self.at(a) - self.at(b)).abs() <= 1e-12 * self.largest()
+    }
+
     /// True where the value never changes.
     pub fn is_constant(&self) -> bool {
         self.value.iter().all(|v| *v == self.value[0])
@@ -42,6 +52,15 @@ pub enum Control {
     Displacement(Table),
     /// Resultant force on the edge, which moves as one piece in this component.
     Force(Table),
+}
+
+impl Control {
+    /// The course over time.
+    pub fn table(&self) -> &Table {
+        match self {
+            Self::Displacement(table) | Self::Force(table) => table,
+        }
+    }
 }
 
 /// One component of one edge.

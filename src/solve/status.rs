@@ -40,6 +40,8 @@ pub struct Outcome {
     pub lagged: usize,
     /// Steps that only the conic method reached, see [`super::Witness`].
     pub rescued: usize,
+    /// Steps whose end was there before, see [`super::Recall`].
+    pub recalled: usize,
     /// Snaps that were crossed, see `solve::crossing`.
     pub snaps: usize,
     /// Length of the step to be tried next; remembered from one nominal step to the next.
@@ -60,6 +62,7 @@ impl Outcome {
             cuts: 0,
             lagged: 0,
             rescued: 0,
+            recalled: 0,
             snaps: 0,
             dt: any,
             law: any,
