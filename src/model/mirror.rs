@@ -7,9 +7,12 @@ use super::{Body, Control, Model, Motion, State};
 /// Positions, weights and courses that differ by less, in units of their largest value, are the same.
 const SAME: f64 = 1e-12;
 
-/// The map of a model onto itself under `x -> 2 a - x`, each body about its own axis in the reference configuration.
+/// The map of a model onto itself under `x -> 2 a - x`, each body about its own axis in the reference configuration. The axis
+/// `a` is that of a body that does not move along x.
 #[derive(Clone, Debug)]
 pub struct Mirror {
+    /// `a`.
+    pub axis: f64,
     /// Reference axis of each body.
     axes: Vec<f64>,
     /// Control point onto which each one is mapped.
@@ -19,9 +22,10 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// `None` where some body, driven edge or contact edge is not its own mirror image.
+    /// `None` where some body, driven edge or contact edge is not its own mirror image, where every body may move along x, and
+    /// where those that do not have different axes.
     pub fn of(model: &Model) -> Option<Self> {
-        let mut this = Self { axes: vec![], partner: vec![], near: SAME * model.size() };
+        let mut this = Self { axis: 0.0, axes: vec![], partner: vec![], near: SAME * model.size() };
         for body in &model.bodies {
             let (axis, partner) = own_axis(body)?;
             this.axes.push(axis);
@@ -30,48 +34,61 @@ impl Mirror {
         let kept = |m: &Motion| m.nodes.iter().all(|&i| m.nodes.contains(&this.partner[i]));
         let turned = |nodes: &[usize]| nodes.iter().zip(nodes.iter().rev()).all(|(&i, &j)| this.partner[i] == j);
         let sides = || model.pairs.iter().flat_map(|pair| [&pair.nonmortar, &pair.mortar]);
-        (model.motions.iter().all(kept) && sides().all(|side| turned(&side.nodes))).then_some(this)
+        if !(model.motions.iter().all(kept) && sides().all(|side| turned(&side.nodes))) {
+            return None;
+        }
+        let held: Vec<f64> = (0..model.bodies.len()).filter_map(|k| this.held(model, k)).collect();
+        this.axis = *held.first()?;
+        held.iter().all(|axis| (axis - this.axis).abs() <= this.near).then_some(this)
     }
 
-    /// The axis about which what drives the bodies at one time is the mirror image of what drives them at another; `None`
-    /// where there is none, or where nothing tells where the bodies are.
-    pub fn axis(&self, model: &Model, from: f64, to: f64) -> Option<f64> {
-        let mut axis = None;
-        let held =
-            |k: usize| model.bodies[k].is_rigid() && model.motions.iter().all(|m| m.body != k || m.component != 0);
-        for k in (0..model.bodies.len()).filter(|&k| held(k)) {
-            agree(&mut axis, self.axes[k], self.near)?;
+    /// The axis of a body that does not move along x.
+    fn held(&self, model: &Model, body: usize) -> Option<f64> {
+        let along = |m: &&Motion| m.body == body && m.component == 0;
+        let mut motions = model.motions.iter().filter(along).peekable();
+        if motions.peek().is_none() {
+            return model.bodies[body].is_rigid().then_some(self.axes[body]);
         }
-        for motion in &model.motions {
-            let table = motion.control.table();
-            let sum = table.at(from) + table.at(to);
-            match (&motion.control, motion.component) {
-                (Control::Displacement(_), 0) => agree(&mut axis, self.axes[motion.body] + 0.5 * sum, self.near)?,
-                (Control::Force(_), 0) => (sum.abs() <= SAME * table.largest()).then_some(())?,
-                _ => table.agrees(from, to).then_some(())?,
-            }
-        }
-        axis
+        motions.find_map(|motion| match &motion.control {
+            Control::Displacement(table) if table.is_constant() => Some(self.axes[body] + table.at(0.0)),
+            _ => None,
+        })
     }
 
-    /// Displacements and pressures of a state, mirrored about an axis.
-    pub fn image(&self, model: &Model, state: &State, axis: f64) -> State {
+    /// What drives the mirror image of a motion at a time.
+    pub fn drive(&self, motion: &Motion, time: f64) -> f64 {
+        let value = motion.control.table().at(time);
+        match (&motion.control, motion.component) {
+            (Control::Displacement(_), 0) => 2.0 * (self.axis - self.axes[motion.body]) - value,
+            (Control::Force(_), 0) => -value,
+            _ => value,
+        }
+    }
+
+    /// Whether what drives the bodies at one time is the mirror image of what drives them at another.
+    pub fn agrees(&self, model: &Model, from: f64, to: f64) -> bool {
+        model.motions.iter().all(|motion| {
+            let apart = (self.drive(motion, from) - motion.control.table().at(to)).abs();
+            apart
+                <= match motion.control {
+                    Control::Displacement(_) => self.near,
+                    Control::Force(_) => SAME * motion.control.table().largest(),
+                }
+        })
+    }
+
+    /// Displacements and pressures of a state, mirrored.
+    pub fn image(&self, model: &Model, state: &State) -> State {
         let mut image = state.clone();
         for (body, own) in model.bodies.iter().zip(&self.axes) {
             for i in body.nodes() {
                 let u = state.u[i];
-                image.u[self.partner[i]] = Point::new(2.0 * (axis - own) - u.x, u.y);
+                image.u[self.partner[i]] = Point::new(2.0 * (self.axis - own) - u.x, u.y);
             }
         }
         image.pairs.iter_mut().for_each(|pair| pair.pressure.reverse());
         image
     }
-}
-
-/// Takes an axis, or compares it with the one that was taken.
-fn agree(axis: &mut Option<f64>, found: f64, near: f64) -> Option<()> {
-    let known = *axis.get_or_insert(found);
-    ((known - found).abs() <= near).then_some(())
 }
 
 /// Axis of a body and the control point onto which each is mapped, counted inside the body: rows of the patch, or rigid

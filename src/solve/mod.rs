@@ -11,6 +11,7 @@ mod newton;
 mod predictor;
 mod recall;
 mod status;
+mod ways;
 pub mod weakening;
 mod witness;
 
@@ -19,6 +20,7 @@ pub use interface_loop::Strategy;
 pub use march::{Control, StepReport, Tools, march, proceed};
 pub use newton::{NewtonReport, solve_step};
 pub use predictor::predict;
-pub use recall::{Recall, Seen, Ways};
+pub use recall::{Recall, Seen};
 pub use status::{Outcome, Status};
+pub use ways::Ways;
 pub use witness::{Effort, Witness};

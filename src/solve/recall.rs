@@ -3,9 +3,10 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::geometry::Point;
-use crate::model::{Mirror, Model, State};
+use crate::model::{Model, State};
 
-use super::{Control, Effort, NewtonReport, Witness};
+use super::ways::{Way, Ways};
+use super::{Effort, NewtonReport, Witness};
 
 /// Largest difference of displacements, over the largest displacement against rigid motion, of states on the same path.
 const SAME: f64 = 1e-6;
@@ -21,77 +22,6 @@ pub struct Seen {
     pub pressure: Vec<f64>,
     /// Energy that snaps had set free by then.
     pub snap_loss: f64,
-}
-
-/// How a path comes by again.
-#[derive(Clone, Copy)]
-enum Way {
-    /// The drives stand where they stood.
-    Back,
-    /// They stand at the mirror image.
-    Mirrored,
-}
-
-/// When the drives of a march come by again, and by what way.
-pub struct Ways<'a> {
-    model: &'a Model,
-    mirror: Option<Mirror>,
-    nominal: f64,
-    /// Number of nominal steps until all tables have ended.
-    last: usize,
-}
-
-impl<'a> Ways<'a> {
-    /// Of a march through these nominal steps. It may be extended later: what counts is how long the tables go on.
-    pub fn new(model: &'a Model, control: &Control) -> Self {
-        let nominal = control.end / control.steps as f64;
-        let ends = model.motions.iter().filter_map(|m| m.control.table().time.last());
-        let last = ends.fold(control.end, |m, t| m.max(*t)) / nominal;
-        let mirror = if model.forgets() { Mirror::of(model) } else { None };
-        Self { model, mirror, nominal, last: last.round() as usize }
-    }
-
-    /// Whether any state will be needed again.
-    pub fn any(&self) -> bool {
-        (1..=self.last).any(|step| self.keeps(step))
-    }
-
-    /// Whether the drives of a nominal step come by again; what stands still is no way back.
-    pub fn keeps(&self, step: usize) -> bool {
-        let again = |later: usize| {
-            later > step + 1 && self.axis(Way::Back, step, later).is_some()
-                || self.axis(Way::Mirrored, step, later).is_some()
-        };
-        self.model.forgets() && (step + 1..=self.last).any(again)
-    }
-
-    /// Where the drives of one nominal step are those of another after a way: the axis if it mirrors, else zero.
-    fn axis(&self, way: Way, from: usize, to: usize) -> Option<f64> {
-        let [a, b] = [from, to].map(|step| step as f64 * self.nominal);
-        match way {
-            Way::Back => self.model.motions.iter().all(|m| m.control.table().agrees(a, b)).then_some(0.0),
-            Way::Mirrored => self.mirror.as_ref()?.axis(self.model, a, b),
-        }
-    }
-
-    /// The nominal step that ends at a time.
-    fn step_at(&self, time: f64) -> Option<usize> {
-        let step = (time / self.nominal).round();
-        ((time / self.nominal - step).abs() < 1e-9).then_some(step as usize)
-    }
-
-    /// What was remembered as it is at another nominal step, everything else taken from `start`; `None` where the drives differ.
-    fn image(&self, seen: &Seen, way: Way, step: usize, start: &State) -> Option<State> {
-        let axis = self.axis(way, seen.step, step)?;
-        let mut state = start.clone();
-        state.u.clone_from(&seen.u);
-        let pressures = state.pairs.iter_mut().flat_map(|pair| &mut pair.pressure);
-        pressures.zip(&seen.pressure).for_each(|(p, old)| *p = *old);
-        Some(match (way, &self.mirror) {
-            (Way::Mirrored, Some(mirror)) => mirror.image(self.model, &state, axis),
-            _ => state,
-        })
-    }
 }
 
 impl Seen {
@@ -149,26 +79,42 @@ impl<'a, W> Recall<'a, W> {
         Self { inner, ways, seen }
     }
 
+    /// What was remembered as it is after a way, everything else taken from `start`.
+    fn image(&self, seen: &Seen, way: Way, start: &State) -> State {
+        let mut state = start.clone();
+        state.u.clone_from(&seen.u);
+        let pressures = state.pairs.iter_mut().flat_map(|pair| &mut pair.pressure);
+        pressures.zip(&seen.pressure).for_each(|(p, old)| *p = *old);
+        match (way, &self.ways.mirror) {
+            (Way::Mirrored, Some(mirror)) => mirror.image(self.ways.model, &state),
+            _ => state,
+        }
+    }
+
     /// Whether the state at a nominal step agrees with what is remembered next to `seen`, the state itself included: there a
     /// path may turn.
     fn on_path(&self, seen: &Seen, way: Way, start: &State, step: usize) -> bool {
         let now = Seen::of(step, start);
         let near = |s: &&Seen| s.step.abs_diff(seen.step) == 1 && s.snap_loss == now.snap_loss;
-        let agrees = |s: &Seen| self.ways.image(s, way, step, start).is_some_and(|image| same(&image.u, &start.u));
+        let agrees = |s: &Seen| self.ways.leads(way, s.step, step) && same(&self.image(s, way, start).u, &start.u);
         seen.snap_loss == now.snap_loss && self.seen.iter().chain([&now]).filter(near).any(agrees)
     }
 }
 
 impl<W: Witness> Witness for Recall<'_, W> {
     fn foresee(&mut self, start: &State, time: f64) -> Option<State> {
+        if !self.ways.any() {
+            return None;
+        }
         let (step, before) = (self.ways.step_at(time)?, self.ways.step_at(start.time)?);
         if before + 1 != step {
             return None;
         }
-        let ways = self.seen.iter().rev().flat_map(|seen| [Way::Back, Way::Mirrored].map(|way| (seen, way)));
-        let mut known = ways.filter(|(seen, way)| self.ways.axis(*way, seen.step, step).is_some());
+        let known = |other| self.seen.binary_search_by_key(&other, |seen| seen.step).ok().map(|k| &self.seen[k]);
+        let of = |way| self.ways.candidates(way, step).filter_map(known).map(move |seen| (seen, way));
+        let mut known = Way::ALL.into_iter().flat_map(of).filter(|(seen, way)| self.ways.leads(*way, seen.step, step));
         let (seen, way) = known.find(|(seen, way)| self.on_path(seen, *way, start, before))?;
-        let mut state = self.ways.image(seen, way, step, start)?;
+        let mut state = self.image(seen, way, start);
         state.prescribe(self.ways.model, time);
         Some(state)
     }
