@@ -192,7 +192,7 @@ fn check_tells_what_is_modelled_and_what_is_not() {
     }
     let said =
         stdout(&asperity(&folder, &["check", "scene.toml", "--set", "contact.0.law={ type = \"frictionless\" }"]));
-    assert!(said.contains("tangential unknowns of contact 0"), "{said}");
+    assert!(said.contains("tangential unknowns, slip history and state variables of contact 0"), "{said}");
     assert!(!folder.join("out").exists());
 }
 
