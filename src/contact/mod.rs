@@ -2,6 +2,7 @@
 
 mod assembly;
 mod complementarity;
+mod eased;
 mod integration;
 mod interface;
 mod kinematics;

@@ -48,14 +48,14 @@ pub struct Numerics {
 }
 
 /// A mortar pair. See the module documentation.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Mortar {
     nonmortar: Curve,
     mortar: Curve,
     multiplier: Option<Arc<dyn Basis>>,
     law: Option<Arc<dyn FrictionLaw>>,
     variables: Vec<f64>,
-    numerics: Numerics,
+    pub(super) numerics: Numerics,
     orientation: Orientation,
     rule: GaussRule,
     path_rule: GaussRule,

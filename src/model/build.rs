@@ -205,6 +205,8 @@ impl Builder {
             boundary: boundary(&pairs, &equations),
             pairs,
             equations,
+            inertia: None,
+            viscosity: None,
         })
     }
 

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::dynamics;
 use super::issue::{Issue, KeyPath, SceneError, listed};
 use super::motion::{Course, Motion};
 use super::numerics::{Integration, Projection, Sites, Volumetric, stable_degrees};
 use super::rules::law_issue;
 use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
-use crate::bulk::{LinearElastic, Material, NeoHookean};
+use crate::bulk::{LinearElastic, Material, NeoHookean, SaintVenantKirchhoff};
 use crate::contact;
 use crate::geometry::{self, BSpline, Basis, Edge, GeometryError, Point};
 use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Table, Tangent, evaluate};
@@ -35,6 +36,7 @@ pub fn build(scene: &Scene, base_dir: &Path) -> Result<Model, SceneError> {
     }
     motions(scene, &mut builder)?;
     let model = builder.build().map_err(|error| model_issue(&error, &KeyPath::of("contact")))?;
+    let model = dynamics::with_rates(scene, model);
     initial_overlap(scene, &model)?;
     Ok(model)
 }
@@ -148,11 +150,14 @@ fn turn(points: &mut [Point], centre: Point, degrees: f64) {
 
 fn material_of(spec: &MaterialSpec) -> Arc<dyn Material> {
     match *spec {
-        MaterialSpec::NeoHookean { youngs_modulus, poissons_ratio } => {
+        MaterialSpec::NeoHookean { youngs_modulus, poissons_ratio, .. } => {
             Arc::new(NeoHookean { youngs_modulus, poissons_ratio })
         }
-        MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio } => {
+        MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio, .. } => {
             Arc::new(LinearElastic { youngs_modulus, poissons_ratio })
+        }
+        MaterialSpec::SaintVenantKirchhoff { youngs_modulus, poissons_ratio, .. } => {
+            Arc::new(SaintVenantKirchhoff { youngs_modulus, poissons_ratio })
         }
     }
 }

@@ -104,6 +104,10 @@ pub struct Solution {
     pub solver: Solver,
     /// How a Newton iteration treats contact. The solution does not depend on it.
     pub strategy: Strategy,
+    /// Viscous regularisation: relaxation time of the bodies in units of `time.end`; 0: none. A path of equilibria that ends is then
+    /// followed on in time instead of being crossed, and what viscosity takes is reported.
+    #[schemars(extend("minimum" = 0))]
+    pub viscosity: f64,
     /// Solve every accepted step a second time by the conic method and compare (`run --certify` and `asperity certify` set it).
     pub certify: bool,
 }
