@@ -156,7 +156,7 @@ fn material_of(spec: &MaterialSpec) -> Arc<dyn Material> {
         MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio, .. } => {
             Arc::new(LinearElastic { youngs_modulus, poissons_ratio })
         }
-        MaterialSpec::SaintVenantKirchhoff { youngs_modulus, poissons_ratio } => {
+        MaterialSpec::SaintVenantKirchhoff { youngs_modulus, poissons_ratio, .. } => {
             Arc::new(SaintVenantKirchhoff { youngs_modulus, poissons_ratio })
         }
     }

@@ -28,7 +28,9 @@ impl MaterialSpec {
     /// Mass per volume, where given.
     pub fn density(&self) -> Option<f64> {
         match *self {
-            Self::NeoHookean { density, .. } | Self::LinearElastic { density, .. } => density,
+            Self::NeoHookean { density, .. }
+            | Self::SaintVenantKirchhoff { density, .. }
+            | Self::LinearElastic { density, .. } => density,
         }
     }
 }

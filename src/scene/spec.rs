@@ -92,6 +92,10 @@ pub enum MaterialSpec {
         /// Poisson's ratio.
         #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
         poissons_ratio: f64,
+        /// Mass per volume (stress time^2/length^2); matters with `[dynamics]` only.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        density: Option<f64>,
     },
     /// Small strain: `sigma = lambda tr(eps) I + 2 mu eps`; for comparison with classical solutions.
     LinearElastic {
