@@ -11,6 +11,7 @@ mod report;
 mod resume;
 mod run;
 mod sweep;
+mod trade;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -27,6 +28,7 @@ Examples:
   asperity run examples/single_asperity.toml --set 'contact.0.law.friction=0.1' --out out/mu-0.1
   asperity certify examples/single_asperity.toml
   asperity sweep examples/sweep/study.toml
+  asperity trade examples/single_asperity.toml --error 0.01
   asperity laws coulomb
   asperity laws rate-and-state --probe examples/probe.toml
 
@@ -70,6 +72,17 @@ enum Command {
     /// fails is recorded with its reason in study.csv, and the others are computed; the exit code is then 3 (no convergence, or a
     /// scene that cannot be built) or 4 (an audit failed).
     Sweep(sweep::SweepArguments),
+    /// Measure error against CPU time over the numerical choices of a scene, and recommend settings.
+    ///
+    /// The scene is computed under many settings: basis and degree, element size, grading, steps, sites, augmentation, multiplier
+    /// degree, projection, integration and its points, solver. A refined run is the reference, its own error is estimated. The folder
+    /// holds trade.md (what is recommended, and how the error is measured), trade.csv (one row a setting), figures with the Pareto
+    /// front, and recommended.toml, the scene with the recommended settings. Nothing is computed twice: the same command again
+    /// prints the same, and after Ctrl-C it goes on.
+    ///
+    /// For example, the cheapest settings for forces within 1 % of their peak:
+    /// asperity trade scene.toml --quantity fx,fy --error 0.01
+    Trade(trade::TradeArguments),
     /// Validate a scene and print the model chosen: what is modelled, what is left out and why, sizes.
     ///
     /// Nothing is computed and nothing is written. Exit code 2 if the scene cannot be used.
@@ -160,6 +173,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(arguments, arguments.certify),
         Command::Certify(arguments) => run::run(arguments, true),
         Command::Sweep(arguments) => sweep::command(arguments),
+        Command::Trade(arguments) => trade::command(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Laws { name, probe, out } => laws::laws(name.as_deref(), probe.as_deref(), out.as_deref()),
         Command::Report { folder, out } => report::report(folder, out.as_deref()),

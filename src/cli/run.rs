@@ -78,7 +78,8 @@ fn conclude(status: &Status, findings: &[Finding], out: &Path) -> Result<Exit, F
     }
 }
 
-fn default_folder(scene: &Path) -> PathBuf {
+/// `out/<name of the scene>`.
+pub fn default_folder(scene: &Path) -> PathBuf {
     Path::new("out").join(scene.file_stem().unwrap_or(scene.as_os_str()))
 }
 
@@ -154,6 +155,8 @@ mod tests {
         friction: None,
         dissipative: true,
         single_drive: true,
+        inertia: false,
+        viscosity: false,
         element_size: 1.0,
         negligible_force: 1e-9,
     };

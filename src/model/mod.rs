@@ -3,6 +3,7 @@
 mod assembly;
 mod body;
 mod build;
+mod choices;
 mod continued;
 mod drag;
 mod equations;
@@ -102,6 +103,12 @@ pub struct Model {
 }
 
 impl Model {
+    /// The same model with the augmentations of all pairs taken to a power: `1` leaves them, `0` makes them `E/h`.
+    pub fn eased(&self, power: f64) -> Self {
+        let ease = |pair: &Pair| Pair { contact: Arc::new(pair.contact.eased(power)), ..pair.clone() };
+        Self { pairs: self.pairs.iter().map(ease).collect(), ..self.clone() }
+    }
+
     /// Number of control points of all bodies.
     pub fn nodes(&self) -> usize {
         self.bodies.last().map_or(0, |b| b.offset + b.points.len())

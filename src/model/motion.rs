@@ -1,5 +1,7 @@
 //! Prescribed motions and forces of edges over time.
 
+use crate::geometry::Point;
+
 /// Piecewise linear in time, constant before the first and after the last entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -75,4 +77,14 @@ pub struct Motion {
     pub control: Control,
     /// True for `[[drive]]`, false for `[[support]]`.
     pub drive: bool,
+}
+
+impl Motion {
+    /// Way of the edge in its component between two times with their displacements.
+    pub fn travel(&self, time: [f64; 2], u: [&[Point]; 2]) -> f64 {
+        match &self.control {
+            Control::Displacement(table) => table.at(time[1]) - table.at(time[0]),
+            Control::Force(_) => self.nodes.first().map_or(0.0, |&i| (u[1][i] - u[0][i])[self.component]),
+        }
+    }
 }

@@ -28,6 +28,8 @@ pub struct Ledger {
     pub dissipated: f64,
     /// Energy set free where an equilibrium path ended and the bodies snapped to another one.
     pub snap_loss: f64,
+    /// Energy stored in the bodies; none before the first step.
+    pub strain_energy: f64,
     /// Force of each motion at this state.
     pub forces: Vec<f64>,
     /// Energy taken away by the time integration of inertia.
@@ -47,13 +49,17 @@ impl Ledger {
     fn settle(&mut self, model: &Model, start: &State, u: &[Point], time: f64, evaluation: &Evaluation) {
         let forces = motion_forces(model, evaluation);
         for (k, motion) in model.motions.iter().enumerate() {
-            let travel = match &motion.control {
-                Control::Displacement(table) => table.at(time) - table.at(start.time),
-                Control::Force(_) => motion.nodes.first().map_or(0.0, |&i| (u[i] - start.u[i])[motion.component]),
-            };
+            let travel = motion.travel([start.time, time], [&start.u, u]);
             self.external_work += 0.5 * (start.ledger.forces[k] + forces[k]) * travel;
         }
         self.forces = forces;
+        self.strain_energy = evaluation.strain_energy;
+    }
+
+    /// Energy set free since an earlier state: work less what is stored and dissipated.
+    pub fn released_since(&self, earlier: &Self) -> f64 {
+        let since = |of: fn(&Self) -> f64| of(self) - of(earlier);
+        since(|l| l.external_work) - since(|l| l.dissipated) - since(|l| l.strain_energy)
     }
 }
 

@@ -63,6 +63,11 @@ impl RunFolder {
         self.root.join("certify.csv")
     }
 
+    /// Path of `events.csv`.
+    pub fn events(&self) -> PathBuf {
+        self.root.join("events.csv")
+    }
+
     /// Path of `run.json`.
     pub fn run_json(&self) -> PathBuf {
         self.root.join("run.json")

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use asperity_laws::{Unit, Variable};
 
-use super::tables::{CERTIFY_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS, history_columns};
+use super::tables::{CERTIFY_COLUMNS, EVENT_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS, history_columns};
 use super::units::{Quantity, UnitLabels};
 
 const HEAD: &str = "\
@@ -16,6 +16,7 @@ run.json        the input with all defaults, versions, counters, audit results a
 history.csv     one row per nominal step
 interface.csv   one row per interface site and nominal step
 certify.csv     one row per accepted step, where the run was certified
+events.csv      one row per way to a step that was given up, and why; only where there was trouble
 fields.pvd      opens all fields in ParaView (time series of fields/*.vtu)
 figures/        every figure as SVG (vector) and PNG; animation.svg moves in a browser
 checkpoint/     what `asperity run --resume` goes on from; not needed to read the results
@@ -40,6 +41,7 @@ pub fn text(title: &str, units: &UnitLabels, variables: &[(String, String)], rat
         let _ = writeln!(text, "{name:<18} {unit:<12} state variable of the friction law");
     }
     section(&mut text, "certify.csv", &CERTIFY_COLUMNS, units);
+    section(&mut text, "events.csv", &EVENT_COLUMNS, units);
     text
 }
 

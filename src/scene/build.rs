@@ -224,7 +224,7 @@ fn pair(contact: &ContactSpec, bodies: &Bodies, key: &KeyPath) -> Result<PairSpe
     })
 }
 
-/// Smooth splines of a lower degree on the elements of the nonmortar edge.
+/// The multipliers asked for: smooth splines of a lower degree on the elements of the nonmortar edge, or its own functions.
 fn multiplier(contact: &ContactSpec, bodies: &Bodies, key: KeyPath) -> Result<Option<Arc<dyn Basis>>, Issue> {
     let Some(degree) = contact.numerics.multiplier_degree else { return Ok(None) };
     let body = bodies.get(contact.nonmortar.body.as_str());
@@ -232,7 +232,8 @@ fn multiplier(contact: &ContactSpec, bodies: &Bodies, key: KeyPath) -> Result<Op
     let edge = patch.boundary(contact.nonmortar.edge).basis;
     let highest = edge.degree();
     if degree == highest {
-        return Ok(None);
+        // said by the user, so not left to the model; rational functions are those of the edge itself
+        return Ok((edge.name() == "lagrange").then_some(edge));
     }
     let stable = stable_degrees(&*edge);
     let allowed = listed(&stable.iter().map(usize::to_string).collect::<Vec<_>>());

@@ -66,6 +66,11 @@ impl Source {
         T::deserialize(self.root.to_value()).map_err(|error| Issue::value(KeyPath::default(), error.to_string()).into())
     }
 
+    /// The document as a plain value of TOML, with everything that was replaced in it.
+    pub fn to_value(&self) -> toml::Value {
+        self.root.to_value()
+    }
+
     fn syntax(&self, error: &toml::de::Error) -> Issue {
         let place = error.span().map(|span| Box::new(self.place(&Origin::File(span))));
         Issue { place, ..Issue::value(KeyPath::default(), format!("not valid TOML: {}", error.message())) }

@@ -8,6 +8,7 @@
 //! a point that is there already is not computed again, whatever else changed in the study.
 
 mod axis;
+mod compute;
 mod figures;
 mod folder;
 mod formula;
@@ -18,6 +19,7 @@ mod spec;
 mod status;
 mod sweep;
 mod table;
+pub mod trade;
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,7 @@
 //! One point of a study: its scene, and the name of its folder.
 
+use std::path::Path;
+
 use serde_json::Value as Json;
 use toml::Value;
 
@@ -27,7 +29,7 @@ impl Study {
     /// A scene that breaks a rule, with the line of the study that makes it so.
     pub fn point(&self, index: usize) -> Result<Point, SceneError> {
         let (scene, _) = self.scene(index)?;
-        let folder = format!("{:016x}", self.fingerprint(&scene));
+        let folder = folder_name(&scene, &self.base_dir);
         Ok(Point { index, folder, steps: scene.time.steps })
     }
 
@@ -98,21 +100,21 @@ impl Study {
         let own = if self.spec.title.is_empty() { scene } else { &self.spec.title };
         format!("{own}: {}", self.said(index))
     }
+}
 
-    /// Hash of the scene with all defaults, of the files that it reads, and of the version of the program. What is only said
-    /// about a scene (its title) does not count.
-    fn fingerprint(&self, scene: &Scene) -> u64 {
-        let mut json = serde_json::to_value(scene).unwrap_or_default();
-        if let Some(scene) = json.as_object_mut() {
-            scene.remove("title");
-        }
-        let mut text = format!("{} {json}", env!("CARGO_PKG_VERSION"));
-        for file in files(&json["body"]) {
-            // a file that cannot be read is reported when the scene is built
-            text += &std::fs::read_to_string(self.base_dir.join(file)).unwrap_or_default();
-        }
-        fingerprint(&text)
+/// Hash of the scene with all defaults, of the files that it reads, and of the version of the program. What is only said
+/// about a scene (its title) does not count.
+pub(super) fn folder_name(scene: &Scene, base_dir: &Path) -> String {
+    let mut json = serde_json::to_value(scene).unwrap_or_default();
+    if let Some(scene) = json.as_object_mut() {
+        scene.remove("title");
     }
+    let mut text = format!("{} {json}", env!("CARGO_PKG_VERSION"));
+    for file in files(&json["body"]) {
+        // a file that cannot be read is reported when the scene is built
+        text += &std::fs::read_to_string(base_dir.join(file)).unwrap_or_default();
+    }
+    format!("{:016x}", fingerprint(&text))
 }
 
 /// Everything named `file` in the shapes of bodies.

@@ -68,12 +68,18 @@ pub struct PointStatus {
     pub reason: String,
     /// Wall time in seconds.
     pub wall_s: f64,
+    /// CPU time of its thread in seconds; 0 in folders of earlier versions.
+    #[serde(default)]
+    pub cpu_s: f64,
+    /// Peak memory of the process while it was computed, in megabytes, where it was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory_mb: Option<f64>,
 }
 
 impl PointStatus {
     /// A state that needs no reason.
     pub fn plain(status: PointState) -> Self {
-        Self { status, reason: String::new(), wall_s: 0.0 }
+        Self { status, reason: String::new(), wall_s: 0.0, cpu_s: 0.0, memory_mb: None }
     }
 
     /// Reads the status of a folder; a folder without one is pending, and so is one whose status cannot be read.

@@ -1,18 +1,13 @@
 //! Points computed in parallel: threads across points, one thread inside each, so that every run is bitwise what it is alone.
 
 use std::collections::BTreeSet;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
-use std::time::Instant;
 
+use super::compute::{Begin, compute_scene};
 use super::{Point, PointState, PointStatus, Study, StudyFolder};
 use crate::model::Record;
-use crate::output::{OutputError, RunFolder};
-use crate::scene::{self, Checkpoint, RunReport, SceneError};
-use crate::solve::Status;
-use crate::verify::Finding;
 
 /// How a sweep goes about its work.
 #[derive(Clone, Copy, Debug)]
@@ -84,70 +79,8 @@ pub fn compute(
     interrupt: &AtomicBool,
     watch: impl FnMut(&Record),
 ) -> PointStatus {
-    let clock = Instant::now();
-    let path = folder.point(point);
+    let scene = || study.scene(point.index).map(|(scene, _)| scene);
     let stopped = matches!(folder.status(point).status, PointState::Interrupted | PointState::Running);
-    let attempt = || {
-        let run = RunFolder::create(&path)?;
-        PointStatus::plain(PointState::Running).write(&path)?;
-        computed(study, point, &run, stopped, interrupt, watch)
-    };
-    let over = catch_unwind(AssertUnwindSafe(attempt));
-    let (status, reason) = match over {
-        Ok(Ok(ending)) => ending,
-        Ok(Err(error)) => (PointState::Internal, error.to_string()),
-        Err(panic) => (PointState::Internal, said(&*panic)),
-    };
-    let status = PointStatus { status, reason, wall_s: clock.elapsed().as_secs_f64() };
-    match status.write(&path) {
-        Ok(()) => status,
-        Err(error) => PointStatus { status: PointState::Internal, reason: error.to_string(), ..status },
-    }
-}
-
-fn computed(
-    study: &Study,
-    point: &Point,
-    folder: &RunFolder,
-    stopped: bool,
-    interrupt: &AtomicBool,
-    watch: impl FnMut(&Record),
-) -> Result<(PointState, String), OutputError> {
-    let built = study.scene(point.index).and_then(|(scene, _)| {
-        let model = scene::build(&scene, study.base_dir())?;
-        Ok((scene, model))
-    });
-    match built {
-        Ok((scene, model)) => {
-            // a checkpoint that cannot be read costs the steps before it, no more
-            let kept = stopped.then(|| Checkpoint::load(folder, &scene, &model).ok().flatten()).flatten();
-            let start = kept.unwrap_or_else(|| Checkpoint::start(&scene, &model));
-            Ok(ending(&scene::resume(&scene, &model, folder, start, interrupt, watch)?))
-        }
-        Err(error) => Ok((PointState::BadInput, in_one_line(&error))),
-    }
-}
-
-/// State of a run that is over, and why it is not done.
-fn ending(RunReport { outcome, findings, .. }: &RunReport) -> (PointState, String) {
-    let failed: Vec<String> = findings.iter().filter(|f| f.failed()).map(Finding::to_string).collect();
-    match &outcome.status {
-        Status::Done if failed.is_empty() => (PointState::Done, String::new()),
-        Status::Done => (PointState::AuditFailed, failed.join("; ")),
-        Status::NotConverged { time, reason } => {
-            (PointState::NotConverged, format!("no convergence after time {time}: {reason}"))
-        }
-        Status::Interrupted { time } => (PointState::Interrupted, format!("stopped after time {time}")),
-    }
-}
-
-fn in_one_line(error: &SceneError) -> String {
-    let one = |issue: &crate::scene::Issue| format!("{}: {}", issue.key, issue.message);
-    error.0.iter().map(one).collect::<Vec<_>>().join("; ")
-}
-
-/// The message of a panic.
-fn said(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
-    format!("panicked: {}", text.unwrap_or("no message"))
+    let begin = if stopped { Begin::WhereItStopped } else { Begin::Anew };
+    compute_scene(scene, study.base_dir(), (&folder.point(point), begin), interrupt, watch)
 }

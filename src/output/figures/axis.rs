@@ -13,6 +13,8 @@ pub struct Axis {
     pub labels: Vec<String>,
     /// Common power of ten; 0 where plain numbers are short.
     pub exponent: i32,
+    /// Whether values are exponents of ten.
+    pub logarithmic: bool,
 }
 
 impl Axis {
@@ -26,7 +28,7 @@ impl Axis {
         let unit = 10.0_f64.powi(exponent);
         let decimals = (0..8).find(|d| is_multiple(step / unit, 0.1_f64.powi(*d))).unwrap_or(8) as usize;
         let labels = ticks.iter().map(|tick| label(tick / unit, decimals)).collect();
-        Self { min, max, ticks, labels, exponent }
+        Self { min, max, ticks, labels, exponent, logarithmic: false }
     }
 
     /// Logarithmic axis over the powers of ten with exponents in `[min, max]`: whole decades, with 2 and 5 between few of them.
@@ -46,7 +48,7 @@ impl Axis {
                 }
             }
         }
-        Self { min, max, ticks, labels, exponent: 0 }
+        Self { min, max, ticks, labels, exponent: 0, logarithmic: true }
     }
 
     /// Position of a value as a share of the axis, 0 at the start.

@@ -53,5 +53,5 @@ fn svg(rows: &[CertifyRow], units: &UnitLabels) -> String {
 
 fn chart(y_label: &str, height: f64, series: Vec<Series>) -> Chart {
     let values = series.iter().flat_map(|series| &series.points).map(|point| point[1]).filter(|v| v.is_finite());
-    Chart { y_label: y_label.into(), y_range: range(values, 0.08), height, series, bands: Vec::new() }
+    Chart { y_label: y_label.into(), y_range: range(values, 0.08), height, series, ..Chart::default() }
 }

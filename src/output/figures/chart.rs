@@ -58,6 +58,8 @@ pub struct Chart {
     pub y_label: String,
     /// Range of the vertical axis.
     pub y_range: [f64; 2],
+    /// Whether the ordinates are powers of ten, and so labelled.
+    pub y_logarithmic: bool,
     /// Height of the frame in points.
     pub height: f64,
     /// Areas behind the curves.
@@ -127,8 +129,11 @@ impl Column {
 
     /// Boxes of all frames: the widest tick label decides the common left margin.
     fn frames(&self) -> Vec<Frame> {
-        let axes: Vec<Axis> =
-            self.charts.iter().map(|chart| Axis::new(chart.y_range, (chart.height / 24.0).round() as usize)).collect();
+        let axis = |chart: &Chart| match chart.y_logarithmic {
+            true => Axis::decades(chart.y_range),
+            false => Axis::new(chart.y_range, (chart.height / 24.0).round() as usize),
+        };
+        let axes: Vec<Axis> = self.charts.iter().map(axis).collect();
         let labels = axes.iter().flat_map(|axis| &axis.labels).map(|label| text::width(label, SMALL));
         let left = 17.0 + TICK + labels.fold(8.0, f64::max);
         let rows = self.key_cells().last().map_or(0, |cell| cell[1] + 1);

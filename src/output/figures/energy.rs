@@ -46,5 +46,5 @@ pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> Stri
 
 fn chart(y_label: String, height: f64, series: Vec<Series>) -> Chart {
     let values = series.iter().flat_map(|series| &series.points).map(|point| point[1]).chain([0.0]);
-    Chart { y_label, y_range: range(values, 0.08), height, series, bands: Vec::new() }
+    Chart { y_label, y_range: range(values, 0.08), height, series, ..Chart::default() }
 }

@@ -40,7 +40,8 @@ impl Frame {
         for (tick, label) in self.y.ticks.iter().zip(&self.y.labels) {
             let y = self.place([0.0, *tick])[1];
             // Zero separates resistance from drive and load from release: the one grid line worth seeing.
-            let line = if *tick == 0.0 { Stroke::solid(GREY, 0.5) } else { Stroke::solid(GRID, 0.4) };
+            let line =
+                if *tick == 0.0 && !self.y.logarithmic { Stroke::solid(GREY, 0.5) } else { Stroke::solid(GRID, 0.4) };
             canvas.polyline(&[[left, y], [right, y]], line);
             canvas.polyline(&[[left - TICK, y], [left, y]], Stroke::solid(INK, 0.5));
             canvas.styled_text([left - TICK - 1.5, y + 2.5], label, Anchor::End, SMALL, INK, 0.0);

@@ -72,5 +72,5 @@ fn loaded_range(profiles: &[Vec<&InterfaceRow>]) -> Option<[f64; 2]> {
 
 fn chart(y_label: String, height: f64, series: Vec<Series>) -> Chart {
     let values = series.iter().flat_map(|series| &series.points).map(|point| point[1]).chain([0.0]);
-    Chart { y_label, y_range: range(values, 0.07), height, series, bands: Vec::new() }
+    Chart { y_label, y_range: range(values, 0.07), height, series, ..Chart::default() }
 }

@@ -33,6 +33,7 @@ mod overlay;
 mod palette;
 mod png;
 pub mod point;
+pub mod precision;
 mod sampling;
 mod states;
 #[cfg(test)]

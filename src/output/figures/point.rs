@@ -78,7 +78,13 @@ fn states(records: &[Record], variables: &[Variable], units: &UnitLabels) -> Str
         let points = over_time(records, |record| record.states[k]);
         let y_range = range(points.iter().map(|point| point[1]), 0.07);
         let series = vec![Series { width: 1.0, ..Series::new("", GREEN, points) }];
-        Chart { y_label: units.axis_of(&variable.name, variable.unit), y_range, height: 76.0, series, bands: vec![] }
+        Chart {
+            y_label: units.axis_of(&variable.name, variable.unit),
+            y_range,
+            height: 76.0,
+            series,
+            ..Chart::default()
+        }
     };
     timed(records, variables.iter().enumerate().map(frame).collect(), units)
 }
@@ -91,5 +97,5 @@ fn timed(records: &[Record], charts: Vec<Chart>, units: &UnitLabels) -> String {
 
 fn chart(y_label: String, height: f64, series: Vec<Series>) -> Chart {
     let values = series.iter().flat_map(|series| &series.points).map(|point| point[1]);
-    Chart { y_label, y_range: range(values, 0.07), height, series, bands: vec![] }
+    Chart { y_label, y_range: range(values, 0.07), height, series, ..Chart::default() }
 }

@@ -31,6 +31,7 @@ pub fn svg(
                 height: 80.0,
                 series: vec![Series { width: 1.4, ..Series::new("", BLUE, mean) }],
                 bands: vec![Band { edges, colour: PALE_BLUE.into() }],
+                ..Chart::default()
             })
         })
         .collect();

@@ -1,11 +1,13 @@
 //! `history.csv` and `interface.csv`: plain column names in the first line, one flushed row per record.
 
 mod certify;
+mod events;
 mod history;
 mod interface;
 mod point;
 
 pub use certify::{CERTIFY_COLUMNS, CertifyRow, CertifyWriter};
+pub use events::{EVENT_COLUMNS, write_events};
 pub use history::{HISTORY_COLUMNS, HistoryWriter, RATE_COLUMNS, history_columns, read_history};
 pub use interface::{INTERFACE_COLUMNS, InterfaceWriter, read_interface};
 pub use point::{POINT_COLUMNS, write_point};

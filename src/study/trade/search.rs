@@ -1,0 +1,93 @@
+//! In which order settings are measured, see [`super`].
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use super::explore::explore;
+use super::found::{Ending, Found, REFERENCE_SHARE, Stop};
+use super::levels::{refer, refined, sized};
+use super::measure::{Event, Laboratory, Measured, Role};
+use super::moves::BASES;
+use super::setting::{Choice, Setting};
+use super::{Trade, Wish};
+use crate::geometry::BasisSpec;
+
+/// Share of the effort that any other run may take.
+pub(super) const RUN_SHARE: f64 = 0.12;
+/// Finest sizes that are looked at (half octaves): the first whose reference can be afforded.
+const FINEST: [i32; 3] = [2, 0, -2];
+/// Sizes below the finest one at which all bases are compared: octaves.
+const CROSSED: [i32; 3] = [-4, -2, 0];
+/// Coarsest size, and that of the first run.
+pub(super) const COARSEST: i32 = -4;
+
+/// Measures settings of a scene below the folder `root`, and tells `watch` on the way.
+///
+/// # Errors
+/// Nothing could be measured against a reference, and why.
+pub fn search(
+    trade: &Trade,
+    wish: &Wish,
+    root: &Path,
+    interrupt: &AtomicBool,
+    watch: &mut dyn FnMut(Event),
+) -> Result<Found, Stop> {
+    let mut laboratory = Laboratory::new(trade, root, interrupt, watch);
+    let finest = finest(&mut laboratory, wish)?;
+    cross(&mut laboratory, wish, finest)?;
+    let mut found = refer(&mut laboratory, wish, finest)?;
+    let ending = explore(&mut laboratory, &mut found, wish, finest);
+    found.ending = match ending {
+        Ok(ending) => ending,
+        Err(Stop::Interrupted) => Ending::Interrupted,
+        Err(other) => return Err(other),
+    };
+    found.spent = laboratory.spent;
+    Ok(found)
+}
+
+/// The finest size whose refinement can be afforded.
+fn finest(laboratory: &mut Laboratory, wish: &Wish) -> Result<i32, Stop> {
+    let basis = BasisSpec::Nurbs { degree: 2 };
+    for elements in COARSEST..=0 {
+        let first = laboratory.measure(&sized(basis, elements), Role::Candidate, f64::INFINITY)?;
+        if first.is_some_and(|k| laboratory.points[k].done()) {
+            break;
+        }
+    }
+    let expected = |finest: i32| laboratory.expected(&refined(basis, finest)).unwrap_or(f64::INFINITY);
+    let affordable = |finest: &i32| expected(*finest) <= REFERENCE_SHARE * wish.effort;
+    FINEST.into_iter().find(affordable).ok_or_else(|| match expected(FINEST[FINEST.len() - 1]) {
+        cost if cost.is_finite() => Stop::TooLittle(cost),
+        _ => Stop::NoReference(reasons(&laboratory.points)),
+    })
+}
+
+pub(super) fn reasons(points: &[Measured]) -> String {
+    let mut said: Vec<&str> = points.iter().map(|point| point.status.reason.as_str()).collect();
+    said.dedup();
+    said.join("; ")
+}
+
+/// Every basis at every size, with both integrations.
+fn cross(laboratory: &mut Laboratory, wish: &Wish, finest: i32) -> Result<(), Stop> {
+    for below in CROSSED {
+        for basis in BASES {
+            let usual = sized(basis, finest + below);
+            let other = Setting { choices: BTreeSet::from([Choice::Integration]), ..usual.clone() };
+            attempt(laboratory, wish, &usual)?;
+            attempt(laboratory, wish, &other)?;
+        }
+    }
+    Ok(())
+}
+
+/// Measures a candidate if it is not expected to take too much; the number of its point.
+pub(super) fn attempt(laboratory: &mut Laboratory, wish: &Wish, setting: &Setting) -> Result<Option<usize>, Stop> {
+    let most = (RUN_SHARE * wish.effort).min(wish.effort - laboratory.spent);
+    match laboratory.expected(setting) {
+        Some(cost) if cost > most => Ok(None),
+        _ => laboratory.measure(setting, Role::Candidate, 2.0 * RUN_SHARE * wish.effort),
+    }
+}
