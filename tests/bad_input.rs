@@ -118,6 +118,16 @@ refuses! {
         key "material.rubber.youngs_modulus", says ["a number > 0"];
     infinite_stiffness: "youngs_modulus = 1.0" => "youngs_modulus = inf", at "youngs_modulus",
         key "material.rubber.youngs_modulus", says ["a finite number"];
+    no_density: "steps = 4" => "steps = 4\n[dynamics]", at "[material.rubber]", key "material.rubber",
+        says ["missing key `density`", "a number > 0 (stress time^2/length^2)", "or remove [dynamics]"];
+    negative_density: "youngs_modulus = 1.0" => "youngs_modulus = 1.0\ndensity = 0.0", at "density",
+        key "material.rubber.density", says ["a number > 0"];
+    unknown_spectral_radius: "steps = 4" => "steps = 4\n[dynamics]\nspectral_radius = 1.5", at "spectral_radius",
+        key "dynamics.spectral_radius", says ["a number >= 0 and <= 1"];
+    velocity_without_inertia: "position = [0.0, 0.1]" => "velocity = [0.0, 0.1]", at "velocity", key "body.upper.velocity",
+        says ["means nothing without inertia", "add a table [dynamics]"];
+    negative_viscosity: "steps = 4" => "steps = 4\n[solution]\nviscosity = -1.0", at "viscosity", key "solution.viscosity",
+        says ["a number >= 0"];
     unknown_material: "[material.rubber]" => "[material.robber]", at "material = \"rubber\"", key "body.lower.material",
         says ["no material \"rubber\"", "did you mean `robber`?"];
     unknown_material_type: "\"neo-hookean\"" => "\"neohooke\"", at "type = \"neohooke", key "material.rubber.type",

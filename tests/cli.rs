@@ -193,6 +193,14 @@ fn check_tells_what_is_modelled_and_what_is_not() {
     let said =
         stdout(&asperity(&folder, &["check", "scene.toml", "--set", "contact.0.law={ type = \"frictionless\" }"]));
     assert!(said.contains("tangential unknowns, slip history and state variables of contact 0"), "{said}");
+    let sets = ["--set", "dynamics={}", "--set", "material.rubber.density=4.0", "--set", "solution.viscosity=0.01"];
+    let said = stdout(&asperity(&folder, &[&["check", "scene.toml"][..], &sets].concat()));
+    for part in ["inertia: consistent mass", "spectral radius 0.8", "mass of body upper", "viscosity: Kelvin-Voigt"] {
+        assert!(said.contains(part), "{part:?} missing in\n{said}");
+    }
+    assert!(!said.contains("the analysis is quasi-static"), "{said}");
+    let said = stdout(&asperity(&folder, &["check", "scene.toml", "--set", "material.rubber.density=4.0"]));
+    assert!(said.contains("inertia: the analysis is quasi-static: there is a `density`, but no [dynamics]"), "{said}");
     assert!(!folder.join("out").exists());
 }
 

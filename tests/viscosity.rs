@@ -60,12 +60,11 @@ viscosity = 0.125
         assert!((pair[1] - step).abs() < 1e-9 * at_rest.abs(), "{} against {step}", pair[1]);
         assert!((pair[1] - exact).abs() < 0.5 * dt / tau * at_rest.abs(), "{} against {exact}", pair[1]);
     }
-    // a force that acts at once does twice the work that is stored
+    // a force that acts at once does twice the work that is stored, here less half of the first step
     let record = found.last();
-    println!(
-        "stored {:.4e}, viscous {:.4e}, work {:.4e}",
-        record.strain_energy, record.viscous_loss, record.external_work
-    );
+    let (share, open) = (record.viscous_loss / record.strain_energy, record.external_work / record.accounted() - 1.0);
+    println!("viscous over stored {share:.4}, open {open:.1e}");
+    assert!((share - 1.0).abs() < 0.03 && open.abs() < 1e-9, "{share} {open}");
 }
 
 /// Share of the work and change of the forces fall with the viscosity.
@@ -82,8 +81,8 @@ fn a_little_viscosity_changes_little() {
     });
     println!("{measured:?}");
     for pair in measured.windows(2) {
-        for k in 0..2 {
-            let fall = pair[0][k] / pair[1][k];
+        for (before, after) in pair[0].iter().zip(&pair[1]) {
+            let fall = before / after;
             assert!(fall > 8.0 && fall < 12.0, "{measured:?}");
         }
     }
@@ -96,7 +95,7 @@ fn viscosity_takes_what_a_snap_sets_free() {
     let setup = Pass { friction: 0.0, height, overlap: 0.5 * height, steps: 152, ..Pass::default() };
     let snap = viscous(&setup, 0.0);
     let free = end(&snap).snap_loss;
-    let shares = [3e-3, 1e-3, 3e-4].map(|viscosity| {
+    let shares = [3e-3, 3e-4].map(|viscosity| {
         let found = viscous(&setup, viscosity);
         let open = (end(&found).external_work - end(&found).accounted()) / free;
         assert!(found.outcome.snaps == 0 && open.abs() < 0.03, "{open}");
@@ -104,6 +103,6 @@ fn viscosity_takes_what_a_snap_sets_free() {
     });
     println!("viscous loss over the energy that the snap sets free: {shares:?}");
     // away from the snap viscosity takes its share in proportion, at the snap it comes late by less and less
-    assert!(shares[0] > shares[1] && shares[1] > shares[2] && (shares[2] - 1.0).abs() < 0.05, "{shares:?}");
-    assert!((shares[2] - 1.0) < 0.4 * (shares[1] - 1.0), "{shares:?}");
+    assert!((shares[0] - 1.0).abs() < 0.25 && (shares[1] - 1.0).abs() < 0.05, "{shares:?}");
+    assert!((shares[1] - 1.0).abs() < 0.3 * (shares[0] - 1.0).abs(), "{shares:?}");
 }

@@ -104,19 +104,21 @@ impl Rates {
     }
 }
 
-/// `M a = -R` at the unknowns; those without mass stay at rest.
+/// `M a = -R` at the unknowns; those without mass stay at rest. Where weights far apart spoil `M`, its row sums stand for it.
 fn initial_acceleration(model: &Model, inertia: &Inertia, residual: &[f64]) -> Vec<Point> {
     let n = model.equations.count;
-    let mut rhs: Vec<f64> =
-        residual[..n].iter().zip(&inertia.diagonal).map(|(r, m)| if *m > 0.0 { -r } else { 0.0 }).collect();
-    if rhs.iter().any(|r| *r != 0.0) {
+    let share = |(r, m): (&f64, &f64)| if *m > 0.0 { -r } else { 0.0 };
+    let mut values: Vec<f64> = residual[..n].iter().zip(&inertia.diagonal).map(share).collect();
+    if values.iter().any(|r| *r != 0.0) {
         let mut bulk = SparseMatrix { pattern: model.equations.pattern.clone(), values: inertia.entries.clone() };
         bulk.mirror();
+        let rows = bulk.times(&vec![1.0; n]);
         let massless = (0..n).filter(|&e| inertia.diagonal[e] <= 0.0).map(|e| (e, e, 1.0)).collect();
         let system = System { n, bulk, interface: massless, boundary: model.boundary.clone() };
-        rhs = SparseLu::default().solve(&system, &rhs).expect("a mass matrix is positive definite");
+        let lumped = |_| values.iter().zip(&rows).map(|(r, m)| if *m > 0.0 { r / m } else { 0.0 }).collect();
+        values = SparseLu::default().solve(&system, &values).unwrap_or_else(lumped);
     }
-    let of = |dof: Dof| if let Dof::Unknown(e) = dof { rhs[e] } else { 0.0 };
+    let of = |dof: Dof| if let Dof::Unknown(e) = dof { values[e] } else { 0.0 };
     model.equations.dofs.iter().map(|dofs| Point::from(dofs.map(of))).collect()
 }
 

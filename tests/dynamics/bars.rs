@@ -135,3 +135,35 @@ fn numerical_loss_is_the_energy_that_is_missing() {
         found.passes();
     }
 }
+
+/// An edge that is set in motion at once presses with `rho c V` while the wave runs through the bar and back (`nu = 0`), and the work
+/// goes where the records say.
+#[test]
+fn an_edge_set_in_motion_meets_the_impedance_of_the_bar() {
+    let drive = "[[drive]]\nbody = \"bar\"\nedge = \"bottom\"\ny = { displacement = { time = [0.2, 2.2], value = [0.0, 0.02] } }\n[dynamics]";
+    let text =
+        bar(50, 0.8, 1.0, 250).replace("[dynamics]", drive).replace("poissons_ratio = 0.3", "poissons_ratio = 0.0");
+    let support = "[[support]]\nbody = \"bar\"\nedge = \"bottom\"\ndisplacement = { y = 0.0 }\n";
+    let found = run(&text.replace(support, ""));
+    let (speed, impedance) = (2.0_f64, 0.5 * 2.0 * 0.01 * 0.1);
+    let during: Vec<f64> = found
+        .states
+        .iter()
+        .filter(|s| s.time > 0.25 && s.time < 0.2 + 1.9 / speed)
+        .map(|s| s.ledger.forces[2])
+        .collect();
+    let mean = during.iter().sum::<f64>() / during.len() as f64;
+    println!(
+        "force {mean:.5e} of {impedance:.5e}, open {:.1e}",
+        found.last().external_work / found.last().accounted() - 1.0
+    );
+    assert!((mean / impedance - 1.0).abs() < 0.01, "{mean} against {impedance}");
+    assert!((found.last().external_work / found.last().accounted() - 1.0).abs() < 0.01);
+    // one that moves with its body from the beginning meets nothing
+    let along = text
+        .replace(support, "")
+        .replace("[0.2, 2.2]", "[0.0, 2.0]")
+        .replace("elements", "velocity = [0.0, 0.01]\nelements");
+    let along = run(&along);
+    assert!(along.states.iter().all(|s| s.ledger.forces[2].abs() < 1e-12 * impedance));
+}

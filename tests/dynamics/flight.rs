@@ -1,6 +1,8 @@
 //! Bodies that nothing holds, and bodies that only friction stops.
 
-use crate::scene::run;
+use crate::scene::{model, run};
+use asperity::geometry::Point;
+use asperity::model::State;
 
 const BLOCK: &str = r#"
 version = 1
@@ -101,4 +103,36 @@ steps = 140
     assert!((place[140] - place[130]).abs() < 1e-3 * way, "at rest after {stop}");
     assert!((found.last().dissipated / (0.5 * mass * 0.06_f64.powi(2)) - 1.0).abs() < 0.02);
     found.passes();
+}
+
+/// Contact edges without mass of their own change neither mass nor centre nor moment of inertia of a block: the kinetic energy of
+/// any motion as a rigid body is exact.
+#[test]
+fn rigid_motion_has_the_exact_kinetic_energy() {
+    for degree in [2, 3] {
+        let text = BLOCK
+            .replace(", top = { type = \"cosine\", height = 0.2, wavelength = 1.0, centers = [0.8] }", "")
+            .replace(
+                "velocity = [0.3, -0.2]\nrotation = 30.0",
+                &format!("basis = {{ type = \"nurbs\", degree = {degree} }}"),
+            )
+            + "[body.other]\nshape = { type = \"block\", x = [0.0, 2.0], y = [-1.0, 0.0] }\nmaterial = \"m\"\nelements = [4, 1]\n";
+        let sides = [("top", "left"), ("bottom", "right")].map(|(own, others)| {
+            format!(
+                "[[contact]]\nnonmortar = {{ body = \"block\", edge = \"{own}\" }}\nmortar = {{ body = \"other\", edge = \"{others}\" }}\n\
+                 law = {{ type = \"frictionless\" }}\n"
+            )
+        });
+        let (_, model) = model(&(text + &sides.concat()));
+        let mut state = State::initial(&model);
+        let velocity = |x: Point| Point::new(0.3 - 2.0 * x.y, -0.1 + 2.0 * x.x);
+        let places: Vec<Point> = model.reference().collect();
+        state.rates.velocity.iter_mut().zip(places).for_each(|(v, x)| *v = velocity(x));
+        let energy = |mass: f64, [w, h]: [f64; 2], centre: Point| {
+            0.5 * mass * velocity(centre).norm_squared() + 0.5 * mass * (w * w + h * h) / 12.0 * 4.0
+        };
+        let exact = energy(0.7, [2.0, 0.5], Point::new(1.0, 0.25)) + energy(1.4, [2.0, 1.0], Point::new(1.0, -0.5));
+        let found = model.kinetic_energy(&state);
+        assert!((found / exact - 1.0).abs() < 1e-12, "degree {degree}: {found} against {exact}");
+    }
 }
