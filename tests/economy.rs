@@ -72,7 +72,7 @@ fn a_rigid_body_is_the_limit_of_stiff_ones() {
     let forces = |change: &dyn Fn(&mut Scene)| run(example(change).1, 19);
     let stiff = |youngs_modulus: f64| {
         forces(&|scene: &mut Scene| {
-            let material = MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio: 0.3 };
+            let material = MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio: 0.3, density: None };
             scene.material.insert("stiff".into(), material);
             scene.body.get_mut("lower").expect("it is there").material = Some("stiff".into());
         })
