@@ -14,7 +14,7 @@ use super::log::{Event, Rung, Tried};
 use super::march::Tools;
 use super::newton::{NewtonReport, Step, solve_dragged};
 use super::pace::within_stride;
-use super::release::{FINEST, leap};
+use super::release::{FINEST, leap, pace};
 use super::status::{Outcome, Status};
 use super::witness::Effort;
 
@@ -64,7 +64,7 @@ impl Advance<'_, '_> {
             // A remainder below half a sub-step joins the last one.
             let left = target - time;
             let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
-            let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
+            let pieces = (wanted / self.outcome.law.min(self.outcome.pace) * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
             let Some(next) = within_stride(self.model, time, wanted) else {
                 let stride = self.model.stride;
@@ -93,7 +93,7 @@ impl Advance<'_, '_> {
     fn shorten(&mut self, next: f64, target: f64, failure: &StepFailure) -> Result<(), Status> {
         let time = self.outcome.state.time;
         self.outcome.cuts += 1;
-        self.failures += 1;
+        self.failures += usize::from(!matches!(failure, StepFailure::Slid(_)));
         if matches!(failure, StepFailure::Vetoed { .. }) {
             Tried::note(&mut self.tried, Rung::Newton, failure);
         }
@@ -153,6 +153,7 @@ impl Advance<'_, '_> {
         let (hard, double) = (done.iterations > HARD, 2.0 * self.outcome.dt);
         self.outcome.dt = if hard { (0.5 * dt).max(self.smallest) } else { double.min(self.nominal) };
         self.outcome.law = law;
+        self.outcome.pace = pace(&done, dt).max(FINEST * self.nominal);
         self.failures = 0;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)

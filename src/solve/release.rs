@@ -7,8 +7,13 @@
 //!
 //! *To another flank*: a site that carries pressure at both ends, but on different flanks of the mortar curve, was released and came
 //! into contact anew; shorter steps see both.
+//!
+//! *Over many elements*: forces bear that well, but what friction does to sites that come and go within the step is lost. Passes of 38
+//! degrees with steps of 3.6, 1.8, 1.0 and 0.5 elements of slip (mu = 0.3) dissipate 25, 4.9, 1.5 and 0.15 % too little, while Fx
+//! changes by less than 1e-4 of its peak.
 
-use crate::model::{Model, Motion, State};
+use crate::contact::SiteRecord;
+use crate::model::{ContactStatus, Model, Motion, State};
 
 use super::convergence::tolerance;
 use super::failure::StepFailure;
@@ -21,15 +26,43 @@ const FAINT: f64 = 1e-3;
 /// Step, of the nominal one, that is not halved again to find out.
 pub const FINEST: f64 = 0.125;
 
+/// Slip in a step, in elements, that is aimed at, and beyond which a step is repeated.
+const SLIP: [f64; 2] = [1.5, 3.0];
+
+/// Longest step that keeps the slip within what is aimed at, going on at the rate of the step found; infinite where nothing slips.
+pub fn pace(found: &NewtonReport, dt: f64) -> f64 {
+    dt * SLIP[0] / slip(found)
+}
+
+/// Largest slip of a site in contact, in elements.
+fn slip(found: &NewtonReport) -> f64 {
+    let closed = sites(found).filter(|site| site.status != ContactStatus::Open);
+    closed.fold(0.0, |m, site| m.max(site.slip.abs() / site.element))
+}
+
+fn sites(found: &NewtonReport) -> impl Iterator<Item = &SiteRecord> {
+    found.evaluation.interfaces.iter().flat_map(|interface| &interface.sites)
+}
+
 /// What is wrong with a converged step, if anything.
 pub fn leap(model: &Model, start: &State, found: &NewtonReport) -> Option<StepFailure> {
     let released = unexplained(model, start, &found.state, tolerance(model, &found.evaluation) * model.size());
-    if released > 0.0 {
+    if released > 0.0 && !ran_off(start, found) {
         return Some(StepFailure::Leapt(released));
     }
-    let jumped = || found.evaluation.interfaces.iter().flat_map(|i| &i.sites).filter(|site| site.jumped);
-    let x = jumped().next()?.x;
-    Some(StepFailure::Jumped { sites: jumped().count(), x: x.x, y: x.y })
+    let jumped = || sites(found).filter(|site| site.jumped);
+    if let Some(first) = jumped().next() {
+        return Some(StepFailure::Jumped { sites: jumped().count(), x: first.x.x, y: first.x.y });
+    }
+    Some(slip(found)).filter(|slip| *slip > SLIP[1]).map(StepFailure::Slid)
+}
+
+/// True where a site that carried pressure has no partner any more: what it held is set free at the end of the mortar curve, not by
+/// a snap.
+fn ran_off(start: &State, found: &NewtonReport) -> bool {
+    let pairs = start.pairs.iter().zip(&found.evaluation.interfaces);
+    let mut sites = pairs.flat_map(|(start, found)| start.sites.iter().zip(&found.sites));
+    sites.any(|(before, now)| before.closure > 0.0 && now.gap.is_nan())
 }
 
 /// The energy set free in a step, where it is more than the step explains and than `round_off`; else zero.

@@ -65,3 +65,29 @@ fn slopes_up_to_eighty_degrees() {
         }
     }
 }
+
+/// Augmentations from a thousandth to a thousandfold of `E/h`. Nodal sites: the same solution, in one pass by other cuts perhaps.
+/// Quadrature sites: the smaller the nearer to a penalty; far above they are unstable, which is said before the run.
+#[test]
+fn augmentations_over_six_decades() {
+    let numerics = |sites: &str, r: f64| format!("contact.0.numerics={{ sites = \"{sites}\", r = {r:e} }}");
+    let nodal = solved("nodal", &[&numerics("nodal", 1.0)]).smooth("nodal");
+    for r in [1e-3, 1e3] {
+        let name = format!("nodal, r = {r:e}");
+        let found = solved(&name, &[&numerics("nodal", r)]).smooth(&name);
+        let change = found.difference(1.0, &nodal);
+        println!("{name}: {change:.1e}");
+        assert!(change < 1e-3, "{name}: {change:e}");
+    }
+    let usual = solved("quadrature", &[]).smooth("quadrature");
+    for (r, most) in [(1e-3, 0.3), (1e-1, 0.02), (1e1, 0.02)] {
+        let name = format!("quadrature, r = {r:e}");
+        let found = solved(&name, &[&numerics("quadrature", r)]).smooth(&name);
+        let change = found.difference(1.0, &usual);
+        println!("{name}: {change:.1e}");
+        assert!(change < most, "{name}: {change:e}");
+    }
+    let hard = solved("quadrature, r = 1e3", &[&numerics("quadrature", 1e3)]);
+    assert!(hard.warnings.iter().any(|w| w.contains("unstable")), "{:?}", hard.warnings);
+    assert!(usual.warnings.is_empty() && nodal.warnings.is_empty());
+}
