@@ -9,8 +9,8 @@ use super::status::Outcome;
 
 /// Inclination of the contact force, in degrees from the vertical, from which flanks and friction are taken to interlock.
 const INTERLOCKED: f64 = 80.0;
-/// Traction over pressure from which no coefficient of friction is behind it any more.
-const RATE_RULED: f64 = 20.0;
+/// Traction over pressure from which friction interlocks by itself.
+const STRONGEST: f64 = 20.0;
 
 /// The report of the last failure; `tried` are the rungs of the last attempt, those before are in the log.
 pub fn words(model: &Model, outcome: &Outcome, tried: &[Tried], failure: &StepFailure) -> String {
@@ -37,15 +37,11 @@ fn advice(model: &Model, outcome: &Outcome, failure: &StepFailure) -> Vec<String
     let force = |c: usize| mine().filter(|(m, _)| m.component == c).map(|(_, f)| *f).sum::<f64>().abs();
     let angle = force(0).atan2(force(1)).to_degrees();
     let ratio = largest_ratio(&outcome.state);
-    if ratio > RATE_RULED {
+    if ratio > STRONGEST || angle > INTERLOCKED {
         advice.push(format!(
-            "friction bears {ratio:.0e} times the pressure: at this slip rate the rate-dependent part of the law rules; a slower drive, or less \
-             viscosity"
-        ));
-    } else if angle > INTERLOCKED {
-        advice.push(format!(
-            "flanks and friction interlock (the contact force is inclined by {angle:.0} degrees: flank angle and friction angle add up to \
-             about 90): gentler flanks or less friction"
+            "flanks and friction interlock (the contact force is inclined by {angle:.0} degrees, friction bears up to {ratio:.0e} times the \
+             pressure; from about 90 degrees on nothing slides): gentler flanks, less friction, or a slower drive where the law depends on \
+             the rate"
         ));
     }
     if mine().any(|(m, _)| matches!(m.control, Control::Force(_))) {
