@@ -103,9 +103,9 @@ impl Advance<'_, '_> {
         if matches!(failure, StepFailure::Vetoed { .. }) {
             Tried::note(&mut self.tried, Rung::Newton, failure);
         }
-        if self.failures == LOST && failure.lost() && (self.cross(next) || self.leap()) {
+        if self.failures == LOST && failure.lost() && self.cross(next) {
             self.note((time, next), Some(Rung::Crossing));
-            return Ok(self.landed(target));
+            return Ok(None);
         }
         match failure {
             StepFailure::Vetoed { step, .. } => self.outcome.law = *step,
@@ -169,7 +169,7 @@ impl Advance<'_, '_> {
     /// A converged step that leaps is thrown away, and taken for what it is only where it is short.
     fn inspect(&mut self, mut found: NewtonReport, dt: f64) -> Result<NewtonReport, StepFailure> {
         let Some(failure) = leap(self.model, &self.outcome.state, &found) else { return Ok(found) };
-        Tried::note(&mut self.tried, found.rung, &failure);
+        self.tried.push(Tried { rung: found.rung, attempts: 1, reason: failure.to_string() });
         if dt > FINEST * self.nominal && 0.5 * dt >= self.smallest {
             if let StepFailure::Leapt(energy) = failure {
                 self.leapt = Some((found, energy));
