@@ -4,8 +4,11 @@
 mod support;
 
 use std::f64::consts::PI;
+use std::sync::atomic::AtomicBool;
 
-use asperity::model::Record;
+use asperity::math::CondensedSolver;
+use asperity::model::{Model, Record, State};
+use asperity::solve::{Control, Outcome, Rung, Strategy, Tools, Witness, proceed};
 use support::{Pass, Run, done};
 
 /// Flanks of 60 degrees, overlapping by half of their height.
@@ -46,6 +49,37 @@ fn the_mirrored_pass_snaps_alike() {
     assert!((a - b).abs() < 1e-3 * a, "{a:.6e} and {b:.6e}");
     let places = |run: &Run| run.records.iter().filter(|r| r.snaps > 0).map(|r| r.step).collect::<Vec<_>>();
     assert_eq!(places(&there), places(&back));
+}
+
+/// Offers what another run found at the next time that it reported.
+struct Knows(Vec<State>);
+
+impl Witness for Knows {
+    fn rescue(&mut self, model: &Model, start: &State, time: f64, _: &AtomicBool) -> Option<State> {
+        let known = self.0.iter().find(|state| state.time >= time)?;
+        let mut guess = State { u: known.u.clone(), ..start.clone() };
+        guess.pairs.iter_mut().zip(&known.pairs).for_each(|(pair, known)| pair.pressure.clone_from(&known.pressure));
+        guess.prescribe(model, time);
+        Some(guess)
+    }
+}
+
+/// A guess from behind the end of the path leads over the snap in one converging step: that is found out, and the snap crossed and
+/// told all the same.
+#[test]
+fn a_rescue_does_not_hide_a_snap() {
+    let (known, never) = (done(&steep()), AtomicBool::new(false));
+    let control = Control { end: 1.0, steps: 76, max_cuts: 8, strategy: Strategy::default() };
+    let (mut solver, mut witness) = (CondensedSolver::default(), Knows(known.states.clone()));
+    let tools = Tools { solver: &mut solver, witness: &mut witness };
+    let from = Outcome::at(State::initial(&known.model));
+    let Ok(outcome) = proceed(&known.model, from, &control, tools, &never, |_| Ok::<(), std::convert::Infallible>(()));
+    let ledger = &outcome.state.ledger;
+    println!("{} snaps, set free {:.4e}, work {:.4e}", outcome.snaps, ledger.snap_loss, ledger.external_work);
+    let mut left = outcome.log.events.iter().flat_map(|event| &event.tried);
+    assert!(left.any(|t| t.rung == Rung::Conic && t.reason.contains("leapt to another equilibrium path")));
+    let peak = known.records.iter().fold(0.0_f64, |m, r| m.max(r.strain_energy));
+    assert!(outcome.snaps > 0 && (ledger.external_work - ledger.snap_loss).abs() < 5e-3 * peak);
 }
 
 /// Gentle slopes have no snap.

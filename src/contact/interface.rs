@@ -137,6 +137,8 @@ pub struct SiteRecord {
     pub status: ContactStatus,
     /// Reference length that belongs to the site.
     pub weight: f64,
+    /// Reference length of the nonmortar element it lies on (a harmonic mean where there are several).
+    pub element: f64,
     /// Boundary stretch, current over reference length.
     pub stretch: f64,
     /// Internal variables of the law at the end of the step.

@@ -60,8 +60,8 @@ pub struct Mortar {
     rule: GaussRule,
     path_rule: GaussRule,
     points: Vec<QuadraturePoint>,
-    /// `E / (length of the span)` for each nonmortar span.
-    stiffness: Vec<f64>,
+    modulus: f64,
+    lengths: Vec<f64>,
     /// `E / (shortest span)`.
     augmentation: f64,
     reach: f64,
@@ -91,7 +91,8 @@ impl Mortar {
         let variables = law.variables().iter().map(|v| v.initial).collect();
         Self {
             path_rule: gauss(mortar.basis.degree() + 2),
-            stiffness: lengths.iter().map(|h| modulus / h).collect(),
+            modulus,
+            lengths,
             augmentation: modulus / shortest,
             reach: total,
             start: StartPartners::default(),
@@ -149,7 +150,7 @@ impl Mortar {
         let mut position = [0.0; 2];
         let full: f64 = site.group.iter().map(|(_, c)| c).sum();
         for &(i, c) in &site.group {
-            r += c / full * self.stiffness[points[i].span];
+            r += c / full * (self.modulus / self.lengths[points[i].span]);
             if let Some(state) = &states[i] {
                 weight += c;
                 gap += c * state.frame.gap;
@@ -163,6 +164,7 @@ impl Mortar {
         let mean = |v: f64| if has_partner { v / weight } else { 0.0 };
         let read = |values: &[f64]| site.reads.iter().map(|&(a, m)| m * values[a]).sum::<f64>();
         let (p, q) = (read(trial.pressure), if self.rubs() { read(trial.traction) } else { 0.0 });
+        let element = self.modulus / r;
         let r = [r * self.numerics.r, r * self.numerics.r_tangential];
         let arc = site.group.iter().map(|&(i, c)| c / full * points[i].arc).sum();
         let memory = recall(start.sites, |m| m.arc, number, arc);
@@ -185,6 +187,7 @@ impl Mortar {
         let none = if has_partner { 0.0 } else { f64::NAN };
         SiteState {
             weight: if has_partner { weight } else { full },
+            element,
             arc,
             position: input.position,
             old: memory.map_or([0.0; 3], |m| [m.deflection, m.traction, m.closure]),

@@ -21,6 +21,8 @@ pub struct SiteState {
     pub site: Site,
     /// `sum_i c_ai` over the points that have a partner; over all points where none has.
     pub weight: f64,
+    /// Length of the nonmortar element.
+    pub element: f64,
     /// Reference arc length.
     pub arc: f64,
     /// Position of its points, averaged.
@@ -117,6 +119,7 @@ impl SiteState {
             slip: self.slip,
             status: answer.status,
             weight: self.weight,
+            element: self.element,
             stretch: self.stretch,
             variables: answer.variables.clone(),
             weakening: answer.weakening,

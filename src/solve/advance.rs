@@ -14,7 +14,7 @@ use super::log::{Event, Rung, Tried};
 use super::march::Tools;
 use super::newton::{NewtonReport, Step, solve_dragged};
 use super::pace::within_stride;
-use super::release::{FINEST, leap};
+use super::release::{FINEST, leap, negligible, pace};
 use super::status::{Outcome, Status};
 use super::witness::Effort;
 
@@ -42,6 +42,8 @@ pub struct Advance<'a, 't> {
     pub drag: Option<Drag>,
     /// Rungs that were left in the step under way.
     pub tried: Vec<Tried>,
+    /// A step that leapt over a snap, for the case that nothing better comes, with the energy set free.
+    pub leapt: Option<(NewtonReport, f64)>,
     pub outcome: Outcome,
 }
 
@@ -64,7 +66,7 @@ impl Advance<'_, '_> {
             // A remainder below half a sub-step joins the last one.
             let left = target - time;
             let wanted = if left <= 1.5 * self.outcome.dt { left } else { self.outcome.dt };
-            let pieces = (wanted / self.outcome.law * VETO).ceil().max(1.0);
+            let pieces = (wanted / self.outcome.law.min(self.outcome.pace) * VETO).ceil().max(1.0);
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
             let Some(next) = within_stride(self.model, &self.outcome.state, wanted) else {
                 let stride = self.model.stride;
@@ -82,25 +84,29 @@ impl Advance<'_, '_> {
                     }
                 }
                 Err(StepFailure::Interrupted) => return Err(Status::Interrupted { time }),
-                Err(failure) => self.shorten(next, target, &failure)?,
+                Err(failure) => {
+                    if let Some(evaluation) = self.shorten(next, target, &failure)? {
+                        return Ok(Reached { evaluation, weakening });
+                    }
+                }
             }
         }
     }
 
-    /// After a step that failed: the next try is shorter, or starts behind a snap.
+    /// After a step that failed: the next try is shorter, or starts behind a snap; with an evaluation where that is at the target.
     ///
     /// # Errors
     /// That there is no way on.
-    fn shorten(&mut self, next: f64, target: f64, failure: &StepFailure) -> Result<(), Status> {
+    fn shorten(&mut self, next: f64, target: f64, failure: &StepFailure) -> Result<Option<Evaluation>, Status> {
         let time = self.outcome.state.time;
         self.outcome.cuts += 1;
-        self.failures += 1;
+        self.failures += usize::from(!matches!(failure, StepFailure::Slid(_)));
         if matches!(failure, StepFailure::Vetoed { .. }) {
             Tried::note(&mut self.tried, Rung::Newton, failure);
         }
         if self.failures == LOST && failure.lost() && self.cross(next) {
             self.note((time, next), Some(Rung::Crossing));
-            return Ok(());
+            return Ok(None);
         }
         match failure {
             StepFailure::Vetoed { step, .. } => self.outcome.law = *step,
@@ -108,11 +114,12 @@ impl Advance<'_, '_> {
         }
         if self.outcome.dt.min(self.outcome.law) >= self.smallest {
             self.note((time, next), Some(Rung::Cut));
-            return Ok(());
+            return Ok(None);
         }
-        if failure.lost() && target - time > self.smallest && self.cross(target) {
+        let far = target - time > self.smallest;
+        if failure.lost() && (far && self.cross(target) || self.leap()) {
             self.note((time, target), Some(Rung::Crossing));
-            return Ok(());
+            return Ok(self.landed(target));
         }
         if self.interrupt.load(Ordering::Relaxed) {
             return Err(Status::Interrupted { time });
@@ -141,13 +148,13 @@ impl Advance<'_, '_> {
         self.outcome.recalled += usize::from(known.is_some());
         let found = known.map_or_else(|| climb(&mut step, next), Ok);
         self.tried = step.tried;
-        let mut done = found.or_else(|failure| self.rescue(next, failure))?;
+        let done = found.or_else(|failure| self.rescue(next, failure))?;
         let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
         let (law, by) = suggested_step(self.model, start, &done.state, &done.evaluation);
         if law < VETO * dt {
             return Err(StepFailure::Vetoed { taken: dt, step: law, by });
         }
-        self.inspect(&mut done, dt)?;
+        let mut done = self.inspect(done, dt)?;
         let start = &self.outcome.state;
         let effort = Effort { iterations: self.outcome.iterations - before, wall_s: clock.elapsed().as_secs_f64() };
         self.tools.witness.accepted(self.model, start, &done, effort);
@@ -157,24 +164,47 @@ impl Advance<'_, '_> {
         let (hard, double) = (done.iterations > HARD, 2.0 * self.outcome.dt);
         self.outcome.dt = if hard { (0.5 * dt).max(self.smallest) } else { double.min(self.nominal) };
         self.outcome.law = law;
+        self.outcome.pace = pace(&done, dt).max(FINEST * self.nominal);
         self.failures = 0;
         std::mem::swap(&mut self.outcome.state, &mut done.state);
         Ok(done)
     }
 
     /// A converged step that leaps is thrown away, and taken for what it is only where it is short.
-    fn inspect(&mut self, done: &mut NewtonReport, dt: f64) -> Result<(), StepFailure> {
-        let Some(failure) = leap(self.model, &self.outcome.state, done) else { return Ok(()) };
-        Tried::note(&mut self.tried, done.rung, &failure);
+    fn inspect(&mut self, mut found: NewtonReport, dt: f64) -> Result<NewtonReport, StepFailure> {
+        let Some(failure) = leap(self.model, &self.outcome.state, &found) else { return Ok(found) };
+        self.tried.push(Tried { rung: found.rung, attempts: 1, reason: failure.to_string() });
         if dt > FINEST * self.nominal && 0.5 * dt >= self.smallest {
+            if let StepFailure::Leapt(energy) = failure {
+                self.leapt = Some((found, energy));
+            }
             return Err(failure);
         }
         if let StepFailure::Leapt(energy) = failure {
-            done.rung = Rung::Crossing;
-            done.state.ledger.snap_loss += energy;
+            found.rung = Rung::Crossing;
+            found.state.ledger.snap_loss += energy;
             self.outcome.snaps += 1;
         }
-        Ok(())
+        Ok(found)
+    }
+
+    /// Goes where a step leapt to, should it lie ahead; false where none did.
+    fn leap(&mut self) -> bool {
+        let time = self.outcome.state.time;
+        let Some((found, energy)) = self.leapt.as_ref().filter(|(found, _)| found.state.time > time) else {
+            return false;
+        };
+        self.outcome.state.clone_from(&found.state);
+        self.outcome.state.ledger.snap_loss += energy;
+        self.outcome.snaps += 1;
+        self.failures = 0;
+        true
+    }
+
+    /// The evaluation of a leap that ended at the target.
+    fn landed(&mut self, target: f64) -> Option<Evaluation> {
+        let here = self.outcome.state.time == target;
+        self.leapt.take_if(|(found, _)| here && found.state.time == target).map(|(found, _)| found.evaluation)
     }
 
     /// Asks the companion for another way to a step that failed.
@@ -211,9 +241,14 @@ impl Advance<'_, '_> {
             }
         };
         let loss = done.state.ledger.released_since(&start.ledger);
+        let least = negligible(&start.ledger).max(negligible(&done.state.ledger));
         self.outcome.state = done.state;
-        self.outcome.state.ledger.snap_loss += loss;
-        self.outcome.snaps += 1;
+        let ledger = &mut self.outcome.state.ledger;
+        // what sets nothing free was no snap, but a step that only a little drag could settle
+        if loss > least {
+            ledger.snap_loss += loss;
+            self.outcome.snaps += 1;
+        }
         self.failures = 0;
         true
     }

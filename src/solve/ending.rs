@@ -1,6 +1,6 @@
 //! Why a march ended, in words: what failed and where, a physical limit, what was tried, what may be changed.
 
-use crate::model::{Control, Model};
+use crate::model::{Control, Model, State};
 
 use super::failure::StepFailure;
 use super::limits;
@@ -9,6 +9,8 @@ use super::status::Outcome;
 
 /// Inclination of the contact force, in degrees from the vertical, from which flanks and friction are taken to interlock.
 const INTERLOCKED: f64 = 80.0;
+/// Traction over pressure from which friction interlocks by itself.
+const STRONGEST: f64 = 20.0;
 
 /// The report of the last failure; `tried` are the rungs of the last attempt, those before are in the log.
 pub fn words(model: &Model, outcome: &Outcome, tried: &[Tried], failure: &StepFailure) -> String {
@@ -34,10 +36,12 @@ fn advice(model: &Model, outcome: &Outcome, failure: &StepFailure) -> Vec<String
     let mine = || model.motions.iter().zip(&outcome.state.ledger.forces).filter(|(m, _)| m.body == model.driven);
     let force = |c: usize| mine().filter(|(m, _)| m.component == c).map(|(_, f)| *f).sum::<f64>().abs();
     let angle = force(0).atan2(force(1)).to_degrees();
-    if angle > INTERLOCKED {
+    let ratio = largest_ratio(&outcome.state);
+    if ratio > STRONGEST || angle > INTERLOCKED {
         advice.push(format!(
-            "flanks and friction interlock (the contact force is inclined by {angle:.0} degrees: flank angle and friction angle add up to \
-             about 90): gentler flanks or less friction"
+            "flanks and friction interlock (the contact force is inclined by {angle:.0} degrees, friction bears up to {ratio:.0e} times the \
+             pressure; from about 90 degrees on nothing slides): gentler flanks, less friction, or a slower drive where the law depends on \
+             the rate"
         ));
     }
     if mine().any(|(m, _)| matches!(m.control, Control::Force(_))) {
@@ -45,9 +49,28 @@ fn advice(model: &Model, outcome: &Outcome, failure: &StepFailure) -> Vec<String
             "drive by displacement instead of force, which has no equilibrium beyond the most the contact bears".into(),
         );
     }
+    if let Some(r) = farthest(model) {
+        advice.push(format!(
+            "r = {r:.0e} makes the contact conditions {}: take numerics.r near 1",
+            if r > 1.0 { "hard to settle, at quadrature sites even unstable" } else { "as soft as a penalty" }
+        ));
+    }
     advice.push(match failure {
         StepFailure::Vetoed { .. } | StepFailure::Law(_) => "more time.steps, or other parameters of the law".into(),
         _ => "more time.steps or time.max_cuts, finer elements along the contact edges".into(),
     });
     advice
+}
+
+/// Largest traction over pressure at the sites in contact.
+fn largest_ratio(state: &State) -> f64 {
+    let sites = state.pairs.iter().flat_map(|pair| &pair.sites).filter(|site| site.closure > 0.0);
+    sites.fold(0.0, |m, site| m.max(site.traction.abs() / site.closure))
+}
+
+/// The augmentation farthest from `E/h`, in units of it, where it is ten times that or a tenth.
+fn farthest(model: &Model) -> Option<f64> {
+    let all = model.pairs.iter().flat_map(|pair| [pair.contact.numerics().r, pair.contact.numerics().r_tangential]);
+    let far = |r: &f64| r.log10().abs();
+    all.max_by(|a, b| far(a).total_cmp(&far(b))).filter(|r| far(r) >= 1.0)
 }

@@ -57,6 +57,9 @@ pub enum StepFailure {
         /// Where the first is now.
         y: f64,
     },
+    /// Converged, but slid far: see `solve::release`.
+    #[error("slid over {0:.1} elements in one step: the work of friction is not known well")]
+    Slid(f64),
     /// A motion under drag that found no equilibrium, see `solve::crossing`.
     #[error("moved on under drag the bodies do not come to rest")]
     Restless,

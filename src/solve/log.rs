@@ -117,3 +117,33 @@ impl Log {
         self.events.push(event);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_latest_events_are_kept() {
+        let mut log = Log::default();
+        for k in 0..MOST + 3 {
+            log.push(Event { time: k as f64, until: 0.0, tried: vec![], reached: None });
+        }
+        assert_eq!((log.events.len(), log.dropped, log.events[0].time), (MOST, 3, 3.0));
+    }
+
+    #[test]
+    fn attempts_of_a_rung_in_a_row_are_one_entry() {
+        let mut tried = vec![];
+        for (rung, failure) in [
+            (Rung::Newton, StepFailure::Inverted(1)),
+            (Rung::Guess, StepFailure::Inverted(2)),
+            (Rung::Guess, StepFailure::Inverted(3)),
+        ] {
+            Tried::note(&mut tried, rung, &failure);
+        }
+        let said: Vec<String> = tried.iter().map(Tried::to_string).collect();
+        assert_eq!(said[0], "Newton's method: a body is turned inside out (det F <= 0) in iteration 1");
+        assert_eq!(said[1], "other first guesses (2 times): a body is turned inside out (det F <= 0) in iteration 2");
+        assert_eq!(said.len(), 2);
+    }
+}

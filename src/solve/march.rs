@@ -88,6 +88,7 @@ pub fn proceed<E>(
         failures: 0,
         drag: None,
         tried: vec![],
+        leapt: None,
         outcome: Outcome { status: Status::Done, ..from },
     };
     for step in first + 1..=control.steps {

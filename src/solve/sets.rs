@@ -47,7 +47,8 @@ impl Sets {
     /// `evaluation` is that of the last iterate.
     pub fn unsettled(&self, model: &Model, evaluation: &Evaluation) -> String {
         let Some(now) = self.last.back() else { return String::new() };
-        let changed = |i: usize| self.last.iter().any(|set| set.len() != now.len() || set[i] != now[i]);
+        // where the sites themselves move (segments) there may be fewer or more
+        let changed = |i: usize| self.last.iter().any(|set| set.len() == now.len() && set[i] != now[i]);
         let moving: Vec<&SiteRecord> = sites(evaluation)
             .enumerate()
             .filter(|(i, site)| changed(*i) && site.x.x.is_finite())

@@ -52,6 +52,8 @@ pub struct Outcome {
     pub dt: f64,
     /// Longest step that the law accepted last.
     pub law: f64,
+    /// Longest step that keeps the slip short, at the rate of the last step.
+    pub pace: f64,
 }
 
 impl Outcome {
@@ -71,6 +73,7 @@ impl Outcome {
             log: Log::default(),
             dt: any,
             law: any,
+            pace: any,
         }
     }
 }

@@ -71,8 +71,13 @@ pub struct Found {
     pub warnings: Vec<String>,
 }
 
+/// A run, however it ends.
+pub fn run(sets: &[&str]) -> Found {
+    compute(SCENE.to_string(), sets)
+}
+
 /// Runs a scene with these replacements.
-fn run(text: String, sets: &[&str]) -> Found {
+fn compute(text: String, sets: &[&str]) -> Found {
     let sets: Vec<String> = sets.iter().map(|s| s.to_string()).collect();
     let (scene, _) = Scene::parse(Path::new("extreme.toml"), text, &sets).expect("a valid scene");
     let model = build(&scene, Path::new(".")).expect("a model");
@@ -89,7 +94,7 @@ fn run(text: String, sets: &[&str]) -> Found {
 
 /// A run that must reach its end with all audits green.
 pub fn solved(name: &str, sets: &[&str]) -> Found {
-    let found = run(SCENE.to_string(), sets);
+    let found = run(sets);
     found.check(name);
     found
 }
@@ -101,7 +106,7 @@ pub fn against_rigid(body: &str, sets: &[&str]) -> Found {
         "lower" => SCENE.replace("material = \"low\"", "rigid = true").replace(held, ""),
         _ => SCENE.replace("material = \"up\"", "rigid = true"),
     };
-    let found = run(text, sets);
+    let found = compute(text, sets);
     found.check(&format!("rigid {body} body"));
     found
 }

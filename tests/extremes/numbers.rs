@@ -65,3 +65,34 @@ fn slopes_up_to_eighty_degrees() {
         }
     }
 }
+
+/// Augmentations from a thousandth to a thousandfold of `E/h`. Nodal sites: the same solution, in one pass by other cuts perhaps.
+/// Quadrature sites: the smaller the nearer to a penalty; far above they are unstable, which is said before the run.
+#[test]
+fn augmentations_over_six_decades() {
+    let numerics = |sites: &str, r: f64| format!("contact.0.numerics={{ sites = \"{sites}\", r = {r:e} }}");
+    // on the coarse mesh of the others averages over a control point cycle
+    let fine = ["body.lower.elements=[40, 10]", "body.upper.elements=[21, 11]"];
+    let nodal = solved("nodal", &[&numerics("nodal", 1.0), fine[0], fine[1]]).smooth("nodal");
+    for r in [1e-3, 1e3] {
+        let name = format!("nodal, r = {r:e}");
+        let found = solved(&name, &[&numerics("nodal", r), fine[0], fine[1]]).smooth(&name);
+        let change = found.difference(1.0, &nodal);
+        println!("{name}: {change:.1e}");
+        assert!(change < 1e-3, "{name}: {change:e}");
+    }
+    let [usual, sharp] = [&[][..], &fine].map(|mesh| solved("quadrature", mesh).smooth("quadrature"));
+    for r in [1e-1, 1e1] {
+        let [coarse, fine] = [(&[][..], &usual), (&fine, &sharp)].map(|(mesh, usual)| {
+            let name = format!("quadrature, r = {r:e}");
+            let sets = numerics("quadrature", r);
+            solved(&name, &[mesh, &[sets.as_str()]].concat()).smooth(&name).difference(1.0, usual)
+        });
+        println!("quadrature, r = {r:e}: {coarse:.1e} coarse, {fine:.1e} fine");
+        assert!(fine < 0.7 * coarse, "r = {r:e}: {coarse:e} and {fine:e}");
+    }
+    solved("quadrature, r = 1e-3", &[&numerics("quadrature", 1e-3)]).smooth("quadrature, r = 1e-3");
+    let hard = solved("quadrature, r = 1e3", &[&numerics("quadrature", 1e3)]);
+    assert!(hard.warnings.iter().any(|w| w.contains("unstable")), "{:?}", hard.warnings);
+    assert!(usual.warnings.is_empty() && nodal.warnings.is_empty());
+}

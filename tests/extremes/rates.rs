@@ -1,6 +1,8 @@
 //! Rate laws at steps of 1e-12 to 1e6, and a drive that turns round inside a step.
 
-use crate::bench::{Found, solved};
+use asperity::solve::Status;
+
+use crate::bench::{Found, run, solved};
 
 fn timed(name: &str, law: &str, dt: f64) -> Found {
     let end = 32.0 * dt;
@@ -52,4 +54,23 @@ fn reversal_inside_a_step() {
     let change = [0, 1].map(|c| (inside.last().force[c] - at.last().force[c]).abs() / at.peak(c));
     println!("reversal inside a step: {change:.1?}");
     assert!(inside.last().contact_length > 0.0 && change.iter().all(|c| *c < 0.02), "{change:?}");
+}
+
+/// Slip at 5e10 units of speed under a law with a viscous part bears far more than the bodies can: no solution, and the reason said.
+#[test]
+fn a_viscous_law_at_a_step_of_nothing_is_named() {
+    let stribeck = "{ type = \"stribeck\", static_friction = 0.3, kinetic_friction = 0.2, speed = 1.0, exponent = 2.0, viscous = 0.01 }";
+    let lugre = "{ type = \"lugre\", rest = 0.4, kinetic = 0.2, speed = 1.0, stiffness = 100.0, damping = 1.0, viscosity = 0.01 }";
+    for law in [stribeck, lugre] {
+        let sets = [
+            format!("contact.0.law={law}"),
+            "time.end=3.2e-11".into(),
+            "time.max_cuts=2".into(),
+            "drive.0.x={ displacement = { time = [0.0, 3.2e-11], value = [0.0, 1.6] } }".into(),
+        ];
+        let found = run(&[&sets[0], &sets[1], &sets[2], &sets[3]]);
+        let Status::NotConverged { reason, .. } = &found.outcome.status else { panic!("{:?}", found.outcome.status) };
+        println!("{reason}");
+        assert!(reason.contains("flanks and friction interlock") && reason.contains("a slower drive"), "{reason}");
+    }
 }
