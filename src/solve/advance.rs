@@ -68,8 +68,9 @@ impl Advance<'_, '_> {
             let wanted = if wanted / pieces == left { target } else { time + wanted / pieces };
             let Some(next) = within_stride(self.model, &self.outcome.state, wanted) else {
                 let stride = self.model.stride;
-                let reason =
-                    format!("a driven edge or a body in flight moves so fast that steps of {stride:.1e} cannot follow it: take more steps");
+                let reason = format!(
+                    "a driven edge or a body in flight moves so fast that steps of {stride:.1e} cannot follow it: take more steps"
+                );
                 return Err(Status::NotConverged { time, reason });
             };
             match self.step(next) {
