@@ -81,8 +81,8 @@ fn a_little_viscosity_changes_little() {
     });
     println!("{measured:?}");
     for pair in measured.windows(2) {
-        for k in 0..2 {
-            let fall = pair[0][k] / pair[1][k];
+        for (large, small) in pair[0].iter().zip(&pair[1]) {
+            let fall = large / small;
             assert!(fall > 8.0 && fall < 12.0, "{measured:?}");
         }
     }
