@@ -192,7 +192,7 @@ fn check_tells_what_is_modelled_and_what_is_not() {
     }
     let said =
         stdout(&asperity(&folder, &["check", "scene.toml", "--set", "contact.0.law={ type = \"frictionless\" }"]));
-    assert!(said.contains("tangential unknowns of contact 0"), "{said}");
+    assert!(said.contains("tangential unknowns, slip history and state variables of contact 0"), "{said}");
     let sets = ["--set", "dynamics={}", "--set", "material.rubber.density=4.0", "--set", "solution.viscosity=0.01"];
     let said = stdout(&asperity(&folder, &[&["check", "scene.toml"][..], &sets].concat()));
     for part in ["inertia: consistent mass", "spectral radius 0.8", "mass of body upper", "viscosity: Kelvin-Voigt"] {

@@ -85,15 +85,15 @@ fn other_bases_and_sites() {
     below(measure("plane, lagrange 2", fine), [0.1, 0.4, 0.1], [0.2, 0.6, 0.1]);
 }
 
-/// Kinks of the mortar side inside a nonmortar element: Gauss points on the elements integrate across them, which
-/// spoils the pressure of quadratic Lagrange elements and does not go away with h. Segments end at the kinks.
+/// Kinks of the mortar side inside a nonmortar element: few Gauss points and quadratic multipliers make waves of them that do not
+/// go away with h (6 % here). The default, linear multipliers and more points, keeps them small; segments end at the kinks.
 #[test]
-fn kinks_of_the_mortar_side_want_segments() {
+fn kinks_of_the_mortar_side() {
     let case = Case { basis: BasisSpec::Lagrange { degree: 2 }, per_a: 14.0, ..TWO };
     let element = case.errors();
     let segment = Case { integration: Integration::Segment, ..case }.errors();
     println!("two, lagrange 2, a/h = 14: elements {element:.3?}, segments {segment:.3?} (L2, max, peak in %)");
-    assert!(segment[0] < 0.3 && segment[0] < 0.2 * element[0]);
+    assert!(element[0] < 0.8 && segment[0] < 0.3 * element[0]);
 }
 
 /// What the half-space solution itself is worth here: twice the domain moves the errors by less than 0.1 % of p0.

@@ -59,6 +59,27 @@ fn killed_at_any_instant_and_resumed_it_is_the_run_in_one_go() {
     assert!(landed * 2 > kills && steps.len() > 3, "the kills must land: {landed}, {steps:?}");
 }
 
+/// What a frictionless march recalls is there again after a stop, before and behind the apex; also for a run whose end
+/// was set later.
+#[test]
+fn recalled_states_are_recalled_by_a_resumed_run() {
+    let law = "{ type = \"dahl\", friction = 0.3, stiffness = 0.3 }";
+    let folder = folder("recall", &SCENE.replace(law, "{ type = \"frictionless\" }"));
+    reference(&folder);
+    let json = std::fs::read_to_string(folder.join("whole/run.json")).unwrap();
+    assert!(json.contains("\"recalled_steps\": 9"), "{json}");
+    for (steps, end) in [(5, 0.25), (13, 0.65)] {
+        let time = [format!("time.end={end}"), format!("time.steps={steps}")];
+        let out = format!("after-{steps}");
+        let part = ["run", "scene.toml", "--quiet", "--out", &out, "--set", &time[0], "--set", &time[1]];
+        let output = asperity(&folder, &part);
+        assert!(output.status.success(), "{}", said(&output));
+        assert_eq!(resume(&folder, &out), 1);
+        let found = differences(&folder.join("whole"), &folder.join(&out));
+        assert!(found.is_empty(), "{found:?}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn interrupted_by_hand_it_says_how_to_go_on() {

@@ -81,8 +81,8 @@ fn a_little_viscosity_changes_little() {
     });
     println!("{measured:?}");
     for pair in measured.windows(2) {
-        for (large, small) in pair[0].iter().zip(&pair[1]) {
-            let fall = large / small;
+        for (before, after) in pair[0].iter().zip(&pair[1]) {
+            let fall = before / after;
             assert!(fall > 8.0 && fall < 12.0, "{measured:?}");
         }
     }

@@ -42,19 +42,21 @@ impl Outline {
         Self { samples, side: curve.side }
     }
 
-    /// True where the straight way from `x` to `y` enters the body behind the curve.
+    /// True where a straight way to the curve tells truly on which side its start `x` lies: one to a place ahead of it (`true`)
+    /// does not come out of the body before, one to a place behind it does not enter the body.
     ///
-    /// The way from a point inside the counterpart back to its partner only leaves it. Behind a point outside there may be a
-    /// place with an opposing normal, too, though no overlap is meant: the way back from the trailing flank of a steep
-    /// asperity comes out at the leading one, enters the counterpart and ends at its far flank.
-    pub fn entered(&self, x: Point, y: Point) -> bool {
+    /// Ways that do so end at places with opposing normals, too, though no contact is meant: the way back from the trailing
+    /// flank of a steep asperity comes out at the leading one, enters the counterpart and ends at its far flank; the way ahead from
+    /// a point inside comes out below and ends at the next asperity.
+    pub fn direct(&self, x: Point, y: Point, ahead: bool) -> bool {
         let way = y - x;
-        self.samples.windows(2).any(|ends| {
+        !self.samples.windows(2).any(|ends| {
             let (edge, to) = (ends[1].y - ends[0].y, ends[0].y - x);
             let slant = way.perp(&edge);
             let (fraction, place) = (to.perp(&edge) / slant, to.perp(&way) / slant);
-            let met = (0.0..1.0).contains(&fraction) && (0.0..1.0).contains(&place);
-            met && way.dot(&rot90(edge)) * self.side < 0.0
+            let crossed = (0.0..1.0).contains(&fraction) && (0.0..1.0).contains(&place);
+            let out = way.dot(&rot90(edge)) * self.side > 0.0;
+            crossed && out == ahead
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Projection of nonmortar points onto the current mortar curve, with a safeguarded search.
 //!
 //! A coarse pass over samples of the curve brackets the partner; a Newton iteration that falls back to bisection
-//! finishes. Only partners with opposing normals are admissible, and behind a point only those from inside the body; points whose partner would lie beyond the ends of the curve have none.
+//! finishes. Only partners with opposing normals and a direct way to them are admissible; points whose partner would lie beyond the ends of the curve have none.
 
 use crate::geometry::{Curve, Point, Shape};
 use crate::math::{Vec2, rot90};
@@ -108,10 +108,11 @@ impl<'a> Target<'a> {
         best
     }
 
-    /// False for what lies behind a point that is not inside the body, see [`Outline::entered`].
+    /// True where a place with an opposing normal is what the point faces, or what it has passed, see [`Outline::direct`].
     fn meant(&self, partner: &Partner, seeker: &Seeker) -> bool {
-        let (x, y) = (seeker.x, self.curve.place(&partner.shape, 0, self.points));
-        (y - x).dot(&seeker.normal) >= 0.0 || !self.outline.entered(x, y)
+        let [y, a] = [0, 1].map(|k| self.curve.place(&partner.shape, k, self.points));
+        let gap = (seeker.x - y).dot(&rot90(a)) * self.curve.side;
+        self.outline.direct(seeker.x, y, gap >= 0.0)
     }
 
     fn distance(&self, partner: &Partner, seeker: &Seeker) -> f64 {

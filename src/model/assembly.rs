@@ -96,7 +96,11 @@ pub(super) fn bulk(model: &Model, u: &[Point], step: Option<f64>) -> Option<Bulk
         if let BodyKind::Deformable { elements, material, .. } = &body.kind {
             let scatter = &model.equations.scatter[k];
             let stiffness = wanted && !material.linear();
-            strain_energy += elements.integrate(material.as_ref(), &u[body.nodes()], stiffness, |e, element| {
+            let displaced = &u[body.nodes()];
+            if !stiffness && displaced.iter().all(|u| *u == displaced[0]) {
+                continue; // a body at rest, or moved as a whole, exerts no force
+            }
+            strain_energy += elements.integrate(material.as_ref(), displaced, stiffness, |e, element| {
                 for (&a, f) in element.nodes.iter().zip(element.forces) {
                     forces[body.offset + a] += f;
                 }

@@ -73,6 +73,15 @@ impl Body {
         }
     }
 
+    /// The curves of a rigid body.
+    pub fn curves(&self) -> impl Iterator<Item = &Curve> {
+        let curves: &[(Edge, Curve)] = match &self.kind {
+            BodyKind::Deformable { .. } => &[],
+            BodyKind::Rigid { curves } => curves,
+        };
+        curves.iter().map(|(_, curve)| curve)
+    }
+
     /// True for a body without unknowns.
     pub fn is_rigid(&self) -> bool {
         matches!(self.kind, BodyKind::Rigid { .. })

@@ -10,6 +10,7 @@ mod equations;
 mod inertia;
 mod linearised;
 mod loaded;
+mod mirror;
 mod motion;
 mod rates;
 mod record;
@@ -25,6 +26,7 @@ pub use equations::{Dof, Equations};
 pub use inertia::{Inertia, Matter};
 pub use linearised::Linearised;
 pub use loaded::{Loaded, load};
+pub use mirror::Mirror;
 pub use motion::{Control, Motion, Table};
 pub use rates::{RateForces, Rates};
 pub use record::{InterfaceRow, Record, interface_rows, record, resistance};
@@ -107,6 +109,12 @@ impl Model {
     pub fn eased(&self, power: f64) -> Self {
         let ease = |pair: &Pair| Pair { contact: Arc::new(pair.contact.eased(power)), ..pair.clone() };
         Self { pairs: self.pairs.iter().map(ease).collect(), ..self.clone() }
+    }
+
+    /// True where a state follows from what drives the bodies at that time and not from what was before: nothing rubs, and no force
+    /// depends on a rate.
+    pub fn forgets(&self) -> bool {
+        !self.has_rates() && self.pairs.iter().all(|pair| !pair.contact.rubs())
     }
 
     /// Number of control points of all bodies.

@@ -40,6 +40,16 @@ impl Table {
         (self.value[next] - self.value[next - 1]) / (self.time[next] - self.time[next - 1])
     }
 
+    /// Largest magnitude of all values.
+    pub fn largest(&self) -> f64 {
+        self.value.iter().fold(0.0, |m, v| m.max(v.abs()))
+    }
+
+    /// True where the values at two times are the same but for round-off.
+    pub fn agrees(&self, a: f64, b: f64) -> bool {
+        (self.at(a) - self.at(b)).abs() <= 1e-12 * self.largest()
+    }
+
     /// True where the value never changes.
     pub fn is_constant(&self) -> bool {
         self.value.iter().all(|v| *v == self.value[0])

@@ -2,9 +2,11 @@
 
 use super::dynamics;
 use super::numerics::Solver;
+use super::run::time_plan;
 use super::spec::Scene;
 use crate::contact::ContactDiscretization;
-use crate::model::{Body, Control, Model, Motion, Pair};
+use crate::model::{Body, Control, Mirror, Model, Motion, Pair};
+use crate::solve::Ways;
 
 /// What is modelled: bodies, contacts, motions, one sentence a line.
 pub fn modelled(scene: &Scene, model: &Model) -> Vec<String> {
@@ -12,6 +14,7 @@ pub fn modelled(scene: &Scene, model: &Model) -> Vec<String> {
     lines.extend(model.pairs.iter().enumerate().map(|(k, pair)| pair_line(scene, model, k, pair)));
     lines.extend(model.motions.iter().map(|motion| motion_line(model, motion)));
     lines.extend(dynamics::modelled(scene, model));
+    lines.extend(whole(model));
     lines
 }
 
@@ -39,8 +42,14 @@ fn pair_line(scene: &Scene, model: &Model, k: usize, pair: &Pair) -> String {
     let numerics = pair.contact.numerics();
     let law = scene.contact.get(k).and_then(|contact| contact.law.get("type")?.as_str()).unwrap_or("?");
     let r = numerics.r * pair.contact.augmentation();
+    let variables = pair.contact.variable_names().join(", ");
+    let friction = match (pair.contact.rubs(), variables.as_str()) {
+        (false, _) => "pressures alone".to_string(),
+        (true, "") => "pressures and tractions".to_string(),
+        (true, variables) => format!("pressures, tractions and the variables {variables}"),
+    };
     format!(
-        "contact {k}: {} on {}, law {law}; {:?} sites, {:?} projection, {:?}-wise integration with {} points, r = {r:.3e} at the shortest contact element",
+        "contact {k}: {} on {}, law {law}, {friction}; {:?} sites, {:?} projection, {:?}-wise integration with {} points, r = {r:.3e} at the shortest contact element",
         model.bodies[pair.nonmortar.body].name,
         model.bodies[pair.mortar.body].name,
         numerics.sites,
@@ -76,23 +85,57 @@ pub fn left_out(scene: &Scene, model: &Model) -> Vec<String> {
     let mut lines = dynamics::left_out(scene);
     for (k, pair) in model.pairs.iter().enumerate() {
         if !pair.contact.rubs() {
-            lines.push(format!("tangential unknowns of contact {k}: its law is frictionless at all times"));
+            lines.push(format!(
+                "tangential unknowns, slip history and state variables of contact {k}: its law is frictionless at all times"
+            ));
         } else if pair.contact.variable_names().is_empty() {
             lines.push(format!("state variables of contact {k}: its law has no memory"));
         }
     }
-    for body in model.bodies.iter().filter(|body| body.is_rigid()) {
-        lines.push(format!("deformation of body {}: declared rigid", body.name));
-    }
+    lines.extend(model.bodies.iter().filter_map(simplified));
     if model.pairs.is_empty() {
         lines.push("contact: the scene has no [[contact]]".to_string());
     }
-    for (what, every) in [("fields", scene.output.fields), ("interface", scene.output.interface)] {
-        if every == 0 {
-            lines.push(format!("output of {what}: `output.{what} = 0`"));
-        }
+    lines.extend(recalled(scene, model));
+    let output = &scene.output;
+    let every = [("fields", output.fields), ("interface", output.interface), ("figures", output.figures.into())];
+    for (what, _) in every.iter().filter(|(_, every)| *every == 0) {
+        let value = if *what == "figures" { "false" } else { "0" };
+        lines.push(format!("output of {what}: `output.{what} = {value}`"));
     }
     lines
+}
+
+/// What a body does without.
+fn simplified(body: &Body) -> Option<String> {
+    let name = &body.name;
+    match body.material() {
+        None => Some(format!("deformation and unknowns of body {name}: declared rigid")),
+        Some(material) if material.small_strain() => {
+            Some(format!("finite strain of body {name}: its material is {}", material.name()))
+        }
+        Some(_) => None,
+    }
+}
+
+/// Steps that need not be solved.
+fn recalled(scene: &Scene, model: &Model) -> Option<String> {
+    let steps = scene.time.steps;
+    let count = Ways::new(model, &time_plan(scene)).recalled(steps);
+    let why =
+        "nothing rubs and the drives come by again, so the states before are tried first, mirrored where they must be";
+    (count > 0).then(|| format!("solution of up to {count} of {steps} steps: {why}"))
+}
+
+/// That a scene is symmetric throughout, of which no use is made.
+fn whole(model: &Model) -> Option<String> {
+    let mirror = Mirror::of(model)?;
+    let times = model.motions.iter().flat_map(|motion| &motion.control.table().time);
+    let throughout = times.copied().all(|time| mirror.agrees(model, time, time));
+    let axis = mirror.axis + 0.0;
+    throughout.then(|| {
+        format!("both halves, although everything is symmetric about x = {axis} at all times: no half model is made")
+    })
 }
 
 /// How large the model is and what solves it, one sentence a line.

@@ -6,6 +6,7 @@
 //!
 //! [`Scene`] is plain data with all defaults filled in; a program may as well make one itself, and `build` either kind.
 
+mod archive;
 mod build;
 mod certify;
 mod checkpoint;

@@ -11,10 +11,11 @@ use crate::math::Counters;
 use crate::model::{Body, Model, Pair, Record};
 use crate::output::tables::{CertifyRow, write_events};
 use crate::output::{OutputError, RunFolder, checkpoint};
-use crate::solve::{Control, Outcome, Status, Tools, proceed};
+use crate::solve::{Control, Outcome, Recall, Status, Tools, Ways, proceed};
 use crate::verify::conic::{Companion, Stage};
 use crate::verify::{self, Finding};
 
+use super::archive::Archive;
 use super::certify::{self, Certifier};
 use super::checkpoint::Checkpoint;
 use super::describe::{left_out, modelled};
@@ -87,17 +88,22 @@ pub fn resume(
     solver.recall(at.solver.clone());
     let mut certifier = Certifier::new(scene, folder, at.step())?;
     let fresh = RefCell::default();
-    let mut companion =
+    let companion =
         Companion { certified: scene.solution.certify.then_some(&fresh), interrupt, stage: Stage::default() };
-    let tools = Tools { solver: solver.as_mut(), witness: &mut companion };
+    let ways = Ways::new(model, &plan);
+    let (mut archive, seen) = Archive::open(folder, model, &ways, at.step())?;
+    let mut recall = Recall::new(&ways, companion, seen);
+    let tools = Tools { solver: solver.as_mut(), witness: &mut recall };
     let mut synced = Instant::now();
     let outcome = proceed(model, at.outcome.clone(), &plan, tools, interrupt, |report| {
         recorder.step(&report)?;
+        archive.step(report.record.step, report.state)?;
         certifier.take(report.record.step, fresh.take())?;
         at.take(&report, wall_s());
         let sync = synced.elapsed() >= SYNC_EVERY;
         if sync {
             recorder.sync()?;
+            archive.sync()?;
             synced = Instant::now();
         }
         at.write(folder, false, sync)?;
@@ -128,7 +134,7 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "counters": {
             "nominal_steps": reached, "steps": outcome.steps, "cuts": outcome.cuts,
             "newton_iterations": outcome.iterations, "factorisations": solver.factorisations,
-            "lagged_steps": outcome.lagged, "rescued_steps": outcome.rescued, "snaps": outcome.snaps,
+            "recalled_steps": outcome.recalled, "lagged_steps": outcome.lagged, "rescued_steps": outcome.rescued, "snaps": outcome.snaps,
             "analyses": solver.analyses, "dense_rows": solver.dense_rows,
         },
         "sparse_lu_instead": {

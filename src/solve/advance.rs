@@ -135,8 +135,11 @@ impl Advance<'_, '_> {
         let (clock, before) = (Instant::now(), self.outcome.iterations);
         let start = &self.outcome.state;
         let (solver, iterations) = (&mut *self.tools.solver, &mut self.outcome.iterations);
+        let known = self.tools.witness.foresee(start, next);
         let mut step = Step::new(self.model, start, self.strategy, solver, self.interrupt, iterations);
-        let found = climb(&mut step, next);
+        let known = known.and_then(|state| step.verify(state));
+        self.outcome.recalled += usize::from(known.is_some());
+        let found = known.map_or_else(|| climb(&mut step, next), Ok);
         self.tried = step.tried;
         let mut done = found.or_else(|failure| self.rescue(next, failure))?;
         let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);

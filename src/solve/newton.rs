@@ -114,6 +114,12 @@ impl Step<'_> {
         }
     }
 
+    /// The end of the step, if this state is.
+    pub fn verify(&mut self, state: State) -> Option<NewtonReport> {
+        let found = self.evaluate(&state, Tangent::None).filter(|found| balanced(self.model, found))?;
+        Some(self.converged(state, found, vec![]))
+    }
+
     fn newton(&mut self, mut trial: State, mut way: Linearisation) -> Result<NewtonReport, StepFailure> {
         let model = self.model;
         let mut evaluation = self.evaluate(&trial, way.tangent).ok_or(StepFailure::Inverted(0))?;

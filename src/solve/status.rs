@@ -42,6 +42,8 @@ pub struct Outcome {
     pub lagged: usize,
     /// Steps that only the conic method reached, see [`super::Witness`].
     pub rescued: usize,
+    /// Steps whose end was there before, see [`super::Recall`].
+    pub recalled: usize,
     /// Snaps that were crossed, see `solve::crossing`.
     pub snaps: usize,
     /// Steps that needed more than the first rung of the ladder.
@@ -64,6 +66,7 @@ impl Outcome {
             cuts: 0,
             lagged: 0,
             rescued: 0,
+            recalled: 0,
             snaps: 0,
             log: Log::default(),
             dt: any,

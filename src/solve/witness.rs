@@ -17,6 +17,12 @@ pub struct Effort {
 
 /// A companion of a march. All methods do nothing by default, as `()` does.
 pub trait Witness {
+    /// Asked before the step from `start` to `time`: a state that may be its end as it is. It counts if it is in equilibrium.
+    fn foresee(&mut self, start: &State, time: f64) -> Option<State> {
+        let _ = (start, time);
+        None
+    }
+
     /// Sees a step from `start` that was accepted.
     fn accepted(&mut self, model: &Model, start: &State, found: &NewtonReport, effort: Effort) {
         let _ = (model, start, found, effort);

@@ -32,16 +32,15 @@ fn only_the_ratio_of_the_moduli_counts() {
 }
 
 /// Either side twenty times finer than the other: near the forces of similar meshes, on coarse meshes. A nonmortar side that is much
-/// coarser needs integration points enough to see the mortar elements.
+/// coarser gets integration points enough to see the mortar elements, and who takes them away is warned.
 #[test]
 fn meshes_that_differ_twentyfold() {
     let reference = solved("alike", &["body.lower.elements=[48, 5]", "body.upper.elements=[23, 5]"]);
-    for (name, lower, upper, points) in
-        [("nonmortar finer", [8, 3], [80, 2], 3), ("mortar finer", [320, 2], [8, 3], 16)]
-    {
+    for (name, lower, upper) in [("nonmortar finer", [8, 3], [80, 2]), ("mortar finer", [320, 2], [8, 3])] {
         let sets = [format!("body.lower.elements={lower:?}"), format!("body.upper.elements={upper:?}")];
-        let points = format!("contact.0.numerics.points={points}");
-        let found = solved(name, &[&sets[0], &sets[1], &points]).smooth(name);
+        let found = solved(name, &[&sets[0], &sets[1]]).smooth(name);
+        let blind = |w: &String| w.contains("cannot see");
+        assert!(!found.warnings.iter().any(blind), "{name}: {:?}", found.warnings);
         let change = found.difference(1.0, &reference);
         println!("{name}: {change:.1e}");
         assert!(change < 0.25, "{name}: {change:e}");
@@ -80,19 +79,16 @@ fn weights_over_six_orders() {
     let nonmortar = |weight| solved("nonmortar", &[FLAT[0], FLAT[2], &weighted("upper", weight), PRESS, drag]);
     let mortar =
         |weight| solved("mortar", &[FLAT[1], narrow[0], narrow[1], narrow[2], &weighted("lower", weight), PRESS, drag]);
-    let (all, fewer) = ([1e-3, 1e-2, 1e2, 1e3], [1e-3, 1e-2, 1e2]);
-    let sides: [(_, &[f64], &dyn Fn(f64) -> _); 2] = [("nonmortar", &all, &nonmortar), ("mortar", &fewer, &mortar)];
-    let mut told = 0;
-    for (side, weights, with) in sides {
+    let sides: [(_, &dyn Fn(f64) -> _); 2] = [("nonmortar", &nonmortar), ("mortar", &mortar)];
+    for (side, with) in sides {
         let reference = with(1.0);
-        for &weight in weights {
+        for weight in [1e-3, 1e-2, 1e2, 1e3] {
             let found = with(weight);
             let crowded = found.warnings.iter().any(|w| w.contains("integration points measure"));
             let change = found.difference(1.0, &reference);
             println!("{side} weight {weight:e}: {change:.1e}, warned: {crowded}");
             assert!(change < 0.1 || crowded, "{side} weight {weight:e}: {change:e}");
-            told += usize::from(crowded);
+            assert!(change > 0.05 || !crowded, "{side} weight {weight:e}: warned of nothing");
         }
     }
-    assert!(told < 3, "{told} of 7 warned");
 }
