@@ -3,7 +3,7 @@
 mod support;
 
 use asperity::contact::{ContactStatus, Integration, Projection, Sites, Tangent};
-use asperity::model::{Model, State, evaluate};
+use asperity::model::{Matter, Model, State, evaluate};
 use support::{Pass, pass};
 
 /// A state in contact: the upper asperity pushed against the lower one, with multipliers of the right size.
@@ -44,6 +44,25 @@ fn error(model: &Model, start: &State, trial: &State, seed: usize) -> (f64, Vec<
         .map(|i| ((plus.residual[i] - minus.residual[i]) / (2.0 * step) - product[i]).abs())
         .fold(0.0_f64, f64::max);
     (worst / scale, status(&here))
+}
+
+/// Inertia and viscosity of a step as short as their time scales, edges without mass and drives included.
+#[test]
+fn tangent_holds_with_inertia_and_viscosity() {
+    for degree in [1, 2, 3] {
+        let setup = Pass { degree, element: 0.2, projection: Some(Projection::Ray), ..Pass::default() };
+        let matter = |_: &asperity::model::Body| Matter { density: 0.3, velocity: [0.1, -0.2] };
+        let still = pass(&setup);
+        let model = still.clone().with_inertia(0.6, matter).with_viscosity(0.01);
+        let (start, trial) = touching(&model, 0.45, 0.003);
+        let (error, _) = error(&model, &start, &trial, degree);
+        assert!(error < 1e-7, "degree {degree}: {error:.1e}");
+        let size = |model: &Model| {
+            let found = evaluate(model, &start, &trial, Tangent::Exact).expect("admissible");
+            found.system.expect("a tangent").bulk.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
+        };
+        assert!(size(&model) > 3.0 * size(&still), "they must matter");
+    }
 }
 
 #[test]
