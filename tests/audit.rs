@@ -13,6 +13,8 @@ const EXPECTED: Expectations = Expectations {
     friction: Some(FRICTION),
     dissipative: true,
     single_drive: true,
+    inertia: false,
+    viscosity: false,
     element_size: 0.05,
     negligible_force: 1e-8,
 };
@@ -123,6 +125,26 @@ fn snaps_are_told_and_must_set_energy_free() {
     };
     assert_eq!(snap(1.0), ["snap"]);
     assert_eq!(snap(-1.0), ["energy_balance", "energy_created"]);
+}
+
+/// What integrator and viscosity took is accounted for, and told where it is much.
+#[test]
+fn losses_of_integrator_and_viscosity_are_told() {
+    let expected = Expectations { inertia: true, viscosity: true, ..EXPECTED };
+    let with = |share: f64, plant: fn(&mut Record, f64)| {
+        let mut records = good();
+        let peak = records.iter().fold(0.0_f64, |m, r| m.max(r.strain_energy.max(r.external_work)));
+        records[20..].iter_mut().for_each(|r| {
+            plant(r, share * peak);
+            r.strain_energy -= share * peak;
+        });
+        broken(&records, expected).into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+    };
+    assert_eq!(with(0.06, |r, energy| r.numerical_loss += energy), ["numerical_loss"]);
+    assert_eq!(with(0.03, |r, energy| r.viscous_loss += energy), ["viscosity"]);
+    let quiet: [fn(&mut Record, f64); 2] =
+        [|r, energy| r.numerical_loss += energy, |r, energy| r.kinetic_energy += energy];
+    assert!(quiet.map(|plant| with(0.04, plant)).iter().all(Vec::is_empty));
 }
 
 /// Energy from nowhere: more is stored than any rule of integration could make of the forces and ways on record.

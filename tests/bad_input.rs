@@ -121,7 +121,7 @@ refuses! {
     unknown_material: "[material.rubber]" => "[material.robber]", at "material = \"rubber\"", key "body.lower.material",
         says ["no material \"rubber\"", "did you mean `robber`?"];
     unknown_material_type: "\"neo-hookean\"" => "\"neohooke\"", at "type = \"neohooke", key "material.rubber.type",
-        says ["`neo-hookean`, `linear-elastic`"];
+        says ["`neo-hookean`, `saint-venant-kirchhoff`, `linear-elastic`"];
     no_material: "material = \"rubber\"\nbasis" => "basis", at "[body.upper]", key "body.upper.material",
         says ["missing key `material`", "`rubber`", "rigid = true"];
     rigid_nonmortar: "material = \"rubber\"\nbasis" => "rigid = true\nbasis", at "nonmortar = ",

@@ -8,8 +8,16 @@ use asperity::model::{ContactStatus, InterfaceRow, Record};
 use asperity::output::tables::{read_history, read_interface};
 
 /// Scenes with a test of their own below.
-const SCENES: [&str; 7] =
-    ["cattaneo_mindlin", "expression_law", "hertz", "incline", "multi_asperity", "patch_test", "single_asperity"];
+const SCENES: [&str; 8] = [
+    "cattaneo_mindlin",
+    "expression_law",
+    "hertz",
+    "impact",
+    "incline",
+    "multi_asperity",
+    "patch_test",
+    "single_asperity",
+];
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples")
@@ -174,6 +182,22 @@ fn incline_sticks_above_the_limit_and_runs_away_below() {
     let (out, code) = start("incline", &["contact.0.law.friction=0.36"]);
     assert_eq!(code, Some(3), "below the limit there is no equilibrium");
     assert!(out.join("run.json").is_file() && out.join("history.csv").is_file());
+}
+
+#[test]
+fn impact_flattens_the_disk_and_throws_it_off_again() {
+    let (history, _) = run("impact", &[]);
+    let start = 0.5 * std::f64::consts::PI * 0.25 * (0.3_f64.powi(2) + 0.2_f64.powi(2));
+    let touching: Vec<&Record> = history.iter().filter(|record| record.contact_length > 0.0).collect();
+    let end = &history[119];
+    assert!(touching.len() > 10 && end.contact_length == 0.0, "{} steps in contact", touching.len());
+    assert!((history[0].kinetic_energy / start - 1.0).abs() < 1e-3, "{} of {start}", history[0].kinetic_energy);
+    let stored = history.iter().fold(0.0_f64, |m, record| m.max(record.strain_energy));
+    assert!(stored > 0.3 * start && end.kinetic_energy > 0.3 * start, "stored {stored}, left {end:?}");
+    for record in &history {
+        assert!((record.accounted() / start - 1.0).abs() < 0.02 && record.external_work.abs() < 1e-12, "{record:?}");
+    }
+    assert!(end.dissipated > 0.0 && end.numerical_loss < 0.05 * start);
 }
 
 #[test]

@@ -12,7 +12,7 @@ mod support;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use asperity::bulk::{Elements, LinearElastic, Material, NeoHookean, VolumeSpace};
+use asperity::bulk::{Elements, LinearElastic, Material, NeoHookean, SaintVenantKirchhoff, VolumeSpace};
 use asperity::geometry::shapes::{AnnulusSector, Nurbs};
 use asperity::geometry::{BasisSpec, Patch, Point, ShapeSpec, build};
 use asperity::math::CondensedSolver;
@@ -28,10 +28,11 @@ fn bases() -> Vec<BasisSpec> {
     nurbs.chain((1..=2).map(|degree| BasisSpec::Lagrange { degree })).collect()
 }
 
-fn materials(poissons_ratio: f64) -> [Box<dyn Material>; 2] {
+fn materials(poissons_ratio: f64) -> [Box<dyn Material>; 3] {
     let youngs_modulus = 1.0;
     [
         Box::new(NeoHookean { youngs_modulus, poissons_ratio }),
+        Box::new(SaintVenantKirchhoff { youngs_modulus, poissons_ratio }),
         Box::new(LinearElastic { youngs_modulus, poissons_ratio }),
     ]
 }
@@ -112,11 +113,14 @@ fn forces_and_stiffness_are_derivatives() {
             };
             let flat = DVector::from_iterator(2 * u.len(), direction.iter().flat_map(|d| [d.x, d.y]));
             let (_, forces, stiffness) = integrate(&elements, material.as_ref(), &u, true);
+            // of fourth order
             let step = 1e-5;
-            let ([plus, minus], change) = ([moved(step), moved(-step)], &stiffness * &flat);
-            let power = forces.dot(&flat);
-            let energy = ((plus.0 - minus.0) / (2.0 * step) - power).abs() / forces.amax();
-            let forces = ((plus.1 - minus.1) / (2.0 * step) - &change).amax() / change.amax();
+            let (near, far) = ([moved(step), moved(-step)], [moved(2.0 * step), moved(-2.0 * step)]);
+            let (change, power) = (&stiffness * &flat, forces.dot(&flat));
+            let slope = (8.0 * (near[0].0 - near[1].0) - (far[0].0 - far[1].0)) / (12.0 * step);
+            let energy = (slope - power).abs() / forces.amax();
+            let slope = ((&near[0].1 - &near[1].1) * 8.0 - (&far[0].1 - &far[1].1)) / (12.0 * step);
+            let forces = (slope - &change).amax() / change.amax();
             assert!(energy < 1e-6 && forces < 1e-6, "{basis:?} {}: {energy:.1e} {forces:.1e}", material.name());
             assert!((&stiffness - stiffness.transpose()).amax() < 1e-13 * stiffness.amax());
         }

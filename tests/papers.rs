@@ -115,3 +115,26 @@ fn without_friction_nothing_is_spent_and_with_it_all_goes_into_friction() {
     let (work, dissipated) = spent(&pass("rough", &["time.steps=100"]));
     assert!(dissipated > 1.0 && (work / dissipated - 1.0).abs() < 1e-2, "{work} {dissipated}");
 }
+
+/// NAFEMS contact benchmark 1 against the published displacements of the middle of the block's surface (MARC).
+#[test]
+fn the_steel_cylinder_sinks_as_far_as_published() {
+    for (friction, published) in [("0", -1.308_019), ("0.1", -1.302_636)] {
+        let out = out(&format!("roller-{friction}"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+        command.arg("run").arg(papers().join("konter-2006/roller.toml")).arg("--quiet").arg("--out").arg(&out);
+        command.args(["--set", "output.figures=false", "--set", "output.fields=0"]);
+        let law = format!("contact.0.law.friction={friction}");
+        assert!(command.args(["--set", &law]).status().expect("the program starts").success());
+        let text = std::fs::read_to_string(out.join("interface.csv")).expect("interface.csv");
+        let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let header = lines.next().expect("a header");
+        let column = |name: &str| header.iter().position(|found| *found == name).expect("a column");
+        let (step, x, y) = (column("step"), column("x"), column("y"));
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        let last = lines.filter(|row| row[step] == "10");
+        let middle = last.min_by(|a, b| number(a[x]).abs().total_cmp(&number(b[x]).abs())).expect("sites");
+        let found = number(middle[y]);
+        assert!((found / published - 1.0).abs() < 1e-3, "friction {friction}: {found}, published {published}");
+    }
+}

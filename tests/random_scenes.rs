@@ -32,7 +32,7 @@ fn positive() -> impl Strategy<Value = f64> {
 }
 
 fn material() -> impl Strategy<Value = String> {
-    let kind = prop::sample::select(vec!["neo-hookean", "linear-elastic"]);
+    let kind = prop::sample::select(vec!["neo-hookean", "saint-venant-kirchhoff", "linear-elastic"]);
     let ratio = prop_oneof![3 => 0.0..0.49f64, 1 => prop::sample::select(vec![-0.99, -0.5, 0.0, 0.4999, 0.499999])];
     let modulus = prop_oneof![3 => Just(1.0), 1 => positive()];
     (kind, ratio, modulus)

@@ -94,6 +94,27 @@ fn a_finished_run_is_left_alone_and_may_be_extended() {
     assert!(found.is_empty(), "{found:?}");
 }
 
+/// The tables of a dynamic run have more columns; they are gone on with all the same. A relaxation time is a share of the end, so that
+/// another end would be another run.
+#[test]
+fn a_dynamic_run_may_be_extended_a_viscous_one_not() {
+    let dense = SCENE.replace("poissons_ratio = 0.3", "poissons_ratio = 0.3\ndensity = 0.01") + "[dynamics]\n";
+    let folder = folder("dynamic", &dense);
+    reference(&folder);
+    let history = std::fs::read_to_string(folder.join("whole/history.csv")).unwrap();
+    assert!(history.lines().next().unwrap().ends_with(",snap_loss,kinetic_energy,numerical_loss,viscous_loss"));
+    let short = ["run", "scene.toml", "--quiet", "--out", "it", "--set", "time.end=0.5", "--set", "time.steps=10"];
+    assert!(asperity(&folder, &short).status.success());
+    assert_eq!(resume(&folder, "it"), 1);
+    let found = differences(&folder.join("whole"), &folder.join("it"));
+    assert!(found.is_empty(), "{found:?}");
+    let viscous = ["--set", "solution.viscosity=0.01"];
+    assert!(asperity(&folder, &[&short[..], &viscous].concat()).status.success());
+    let long = ["run", "scene.toml", "--quiet", "--out", "it", "--resume"];
+    let output = asperity(&folder, &[&long[..], &viscous].concat());
+    assert!(output.status.code() == Some(2) && said(&output).contains("time.end"), "{}", said(&output));
+}
+
 /// A run that could not go on is tried again from its last step: without a cut the end of the equilibrium path behind a
 /// steep flank is not crossed.
 #[test]

@@ -231,8 +231,14 @@ fn an_interrupted_sweep_goes_on_where_it_stopped() {
     let folder = folder("interrupt");
     sweep(&folder, &["--out", "whole", "--set", "time.steps=200"], 0);
     let mut child = start(&folder, &["--quiet", "--jobs", "1", "--set", "time.steps=200"]).spawn().unwrap();
-    let done = || table_of_states(&folder).iter().filter(|state| *state == "done").count();
-    while done() == 0 {
+    let under_way = || {
+        let states = states(&folder);
+        let rows = |(path, state): &(PathBuf, String)| {
+            state == "running" && std::fs::read_to_string(path.join("history.csv")).is_ok_and(|t| t.lines().count() > 1)
+        };
+        states.iter().any(|(_, state)| state == "done") && states.iter().any(rows)
+    };
+    while !under_way() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
@@ -241,21 +247,27 @@ fn an_interrupted_sweep_goes_on_where_it_stopped() {
     assert_eq!(child.wait().unwrap().code(), Some(5));
     let before = table(&folder.join("out/study/study.csv"));
     assert!(before.iter().any(|row| row["status"] == "done") && before.iter().any(|row| row["status"] != "done"));
+    let stopped = before.iter().find(|row| row["status"] == "interrupted").expect("one was under way");
+    let history = folder.join("out/study").join(&stopped["folder"]).join("history.csv");
+    let rows = std::fs::read_to_string(&history).unwrap();
+    assert!(rows.lines().count() > 1);
     sweep(&folder, &["--set", "time.steps=200"], 0);
     assert_eq!(timeless(&folder.join("out/study/study.csv")), timeless(&folder.join("whole/study.csv")));
+    let more = std::fs::read_to_string(&history).unwrap();
+    assert!(more.starts_with(&rows), "wall times of the steps before show that they were kept");
     let after = table(&folder.join("out/study/study.csv"));
     for (before, after) in before.iter().zip(&after).filter(|(before, _)| before["status"] == "done") {
         assert_eq!(before["wall_s"], after["wall_s"], "done is done");
     }
 }
 
-/// Status of all points that have one.
-fn table_of_states(folder: &Path) -> Vec<String> {
+/// Folder and status of all points that have one.
+fn states(folder: &Path) -> Vec<(PathBuf, String)> {
     let Ok(points) = std::fs::read_dir(folder.join("out/study/points")) else { return vec![] };
     let state = |path: PathBuf| {
         let text = std::fs::read_to_string(path.join("point.json")).ok()?;
         let json: serde_json::Value = serde_json::from_str(&text).ok()?;
-        json["status"].as_str().map(str::to_owned)
+        Some((path, json["status"].as_str()?.to_owned()))
     };
     points.filter_map(|point| state(point.ok()?.path())).collect()
 }

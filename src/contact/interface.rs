@@ -143,6 +143,8 @@ pub struct SiteRecord {
     pub variables: Vec<f64>,
     /// Fall of the traction with the slip of the step, `max(0, -d|q|/d|s|)` (nominal stress over length).
     pub weakening: f64,
+    /// True where the site carried pressure at the start of the step and does at its end, but on another flank of the mortar curve.
+    pub jumped: bool,
 }
 
 /// Forces, multiplier rows and tangent of one contact pair. Local unknowns are numbered: control points of the

@@ -2,11 +2,13 @@
 
 mod assembly;
 mod complementarity;
+mod eased;
 mod integration;
 mod interface;
 mod kinematics;
 mod loaded;
 mod mortar;
+mod outline;
 mod point;
 mod projection;
 mod sites;

@@ -30,9 +30,6 @@ use super::projection::Target;
 use super::sites::{Site, SiteState, group, recall};
 use super::start::{Partners, StartPartners};
 
-/// Chords of the polygon that checks the length of a span.
-const CHORDS: usize = 16;
-
 /// Numerical choices of a pair, all resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numerics {
@@ -51,14 +48,14 @@ pub struct Numerics {
 }
 
 /// A mortar pair. See the module documentation.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Mortar {
     nonmortar: Curve,
     mortar: Curve,
     multiplier: Option<Arc<dyn Basis>>,
     law: Option<Arc<dyn FrictionLaw>>,
     variables: Vec<f64>,
-    numerics: Numerics,
+    pub(super) numerics: Numerics,
     orientation: Orientation,
     rule: GaussRule,
     path_rule: GaussRule,
@@ -115,13 +112,17 @@ impl Mortar {
         &self.numerics
     }
 
-    /// Reference length of the nonmortar edge, as its integration points measure it and along a fine polygon.
-    pub fn lengths(&self) -> [f64; 2] {
-        let place =
-            |ends: &[f64], k: usize| self.nonmortar.point(ends[0] + (ends[1] - ends[0]) * k as f64 / CHORDS as f64);
-        let chord = |(ends, k): (&[f64], usize)| (place(ends, k + 1) - place(ends, k)).norm();
-        let spans = self.nonmortar.basis.breaks().windows(2);
-        [self.reach, spans.flat_map(|ends| (0..CHORDS).map(move |k| (ends, k))).map(chord).sum()]
+    /// Reference lengths of the nonmortar and the mortar edge, each as its Gauss points measure it and along a fine polygon.
+    pub fn lengths(&self) -> [[f64; 2]; 2] {
+        let rule = gauss(self.mortar.basis.degree() + 1);
+        let points = EdgeFunctions { curve: &self.mortar, multiplier: None }.points(&rule, &[]);
+        let polygon = |curve: &Curve| curve.span_lengths().iter().sum();
+        [[self.reach, polygon(&self.nonmortar)], [points.iter().map(|p| p.weight).sum(), polygon(&self.mortar)]]
+    }
+
+    /// Length of a nonmortar element in mortar elements, the shortest of either side.
+    pub fn contrast(&self) -> f64 {
+        self.nonmortar.shortest_span() / self.mortar.shortest_span()
     }
 
     /// The law, where there is friction.

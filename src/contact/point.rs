@@ -35,6 +35,8 @@ pub struct PointState {
     pub frame: Frame,
     /// Finite slip of the step and its derivative along the curve.
     pub path: Path,
+    /// True where the partner at the start of the step was on another flank.
+    pub jumped: bool,
     /// Position.
     pub x: Point,
     /// Unit vector along which slip and traction are positive.
@@ -66,7 +68,7 @@ impl Curves<'_> {
         let [y, a, b, c] = [0, 1, 2, 3].map(|k| self.mortar.place(&partner.shape, k, trial.at.mortar));
         let d = here.x - y;
         let z = [d.x, d.y, a.x, a.y, b.x, b.y, edge.x, edge.y];
-        let from = self.anchor(point, was, start, &here, &partner, trial.at);
+        let (from, jumped) = self.anchor(point, was, start, &here, &partner, trial.at);
         let path = path(self.mortar, trial.at.mortar, self.rule, from, partner.xi, gradient);
         let frame = self.orientation.frame(&z);
         let normal = Vec2::new(frame.normal[0], frame.normal[1]);
@@ -76,6 +78,7 @@ impl Curves<'_> {
             z,
             third: [c.x, c.y],
             path,
+            jumped,
             x: here.x,
             tangent: rot90(normal) * -self.mortar.side,
             normal,
@@ -84,7 +87,7 @@ impl Curves<'_> {
 
     /// Parameter from which the slip of this step counts: the partner at the start of the step. A partner on another
     /// flank (farther along the curve than the two points can have moved against each other) is a release and a new
-    /// contact: then the place on the new flank that was nearest at the start of the step.
+    /// contact: then the place on the new flank that was nearest at the start of the step, and `true`.
     fn anchor(
         &self,
         point: &QuadraturePoint,
@@ -93,7 +96,7 @@ impl Curves<'_> {
         here: &Seeker,
         partner: &Partner,
         at: Configuration,
-    ) -> f64 {
+    ) -> (f64, bool) {
         let before = self.nonmortar.place(&point.shape, 0, start.at.nonmortar);
         let moved = |shape: &Shape| {
             let y = self.mortar.place(shape, 0, at.mortar) - self.mortar.place(shape, 0, start.at.mortar);
@@ -104,10 +107,10 @@ impl Curves<'_> {
             let gap = (self.mortar.place(&partner.shape, 0, at.mortar) - here.x).norm();
             let bound = moved(&was.shape).max(moved(&partner.shape)) + gap;
             if length <= 3.0 * bound {
-                return was.xi;
+                return (was.xi, false);
             }
         }
-        parameter_near(self.mortar, start.at.mortar, before, partner.xi)
+        (parameter_near(self.mortar, start.at.mortar, before, partner.xi), was.is_some())
     }
 
     /// Spreads coefficients on slots to the control points: `visit(control point, coefficient)`, numbered as in

@@ -1,16 +1,13 @@
 //! Projection of nonmortar points onto the current mortar curve, with a safeguarded search.
 //!
 //! A coarse pass over samples of the curve brackets the partner; a Newton iteration that falls back to bisection
-//! finishes. Only partners with opposing normals are admissible; points whose partner would lie beyond the ends of the
-//! curve have none.
+//! finishes. Only partners with opposing normals are admissible, and behind a point only those from inside the body; points whose partner would lie beyond the ends of the curve have none.
 
 use crate::geometry::{Curve, Point, Shape};
 use crate::math::{Vec2, rot90};
 
 use super::interface::Projection;
-
-/// Samples of a mortar span in the coarse pass.
-const SAMPLES_PER_SPAN: usize = 3;
+use super::outline::{Outline, Sample};
 
 /// A partner on the mortar curve.
 #[derive(Clone, Copy, Debug)]
@@ -34,19 +31,12 @@ pub struct Seeker {
     pub normal: Vec2,
 }
 
-struct Sample {
-    xi: f64,
-    y: Point,
-    a: Vec2,
-    normal: Vec2,
-}
-
 /// A mortar curve in one configuration.
 pub struct Target<'a> {
     curve: &'a Curve,
     points: &'a [Point],
     projection: Projection,
-    samples: Vec<Sample>,
+    outline: Outline,
     low: Point,
     high: Point,
     reach: f64,
@@ -55,22 +45,12 @@ pub struct Target<'a> {
 impl<'a> Target<'a> {
     /// Samples the curve. Partners farther away than `reach` are not looked for.
     pub fn new(curve: &'a Curve, points: &'a [Point], projection: Projection, reach: f64) -> Self {
-        let breaks = curve.basis.breaks();
-        let mut samples = Vec::with_capacity(SAMPLES_PER_SPAN * curve.spans() + 1);
-        for span in 0..curve.spans() {
-            let last = span + 1 == curve.spans();
-            for k in 0..SAMPLES_PER_SPAN + usize::from(last) {
-                let xi = breaks[span] + (breaks[span + 1] - breaks[span]) * k as f64 / SAMPLES_PER_SPAN as f64;
-                let shape = curve.shape(span, xi);
-                let a = curve.place(&shape, 1, points);
-                samples.push(Sample { xi, y: curve.place(&shape, 0, points), a, normal: rot90(a) * curve.side });
-            }
-        }
+        let outline = Outline::new(curve, points);
         let fold = |f: fn(f64, f64) -> f64, start: f64| {
-            samples.iter().fold(Point::new(start, start), |m, s| Point::new(f(m.x, s.y.x), f(m.y, s.y.y)))
+            outline.samples.iter().fold(Point::new(start, start), |m, s| Point::new(f(m.x, s.y.x), f(m.y, s.y.y)))
         };
         let (low, high) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
-        Self { curve, points, projection, samples, low, high, reach }
+        Self { curve, points, projection, outline, low, high, reach }
     }
 
     /// True where a partner within reach is possible at all.
@@ -106,12 +86,12 @@ impl<'a> Target<'a> {
     fn closest(&self, seeker: &Seeker) -> Option<Partner> {
         let distance = |s: &Sample| (s.y - seeker.x).norm_squared();
         let opposes = |s: &Sample| s.normal.dot(&seeker.normal) < 0.0;
-        let all = self.samples.iter().enumerate();
+        let all = self.outline.samples.iter().enumerate();
         let (nearest, _) =
             all.filter(|(_, s)| opposes(s)).min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))?;
-        let mut best = self.descend(nearest, seeker)?;
-        let mut reached = self.distance(&best, seeker);
-        for (k, near) in self.samples.windows(3).enumerate() {
+        let mut best = Some(self.descend(nearest, seeker)?).filter(|found| self.meant(found, seeker));
+        let mut reached = best.as_ref().map_or(f64::INFINITY, |found| self.distance(found, seeker));
+        for (k, near) in self.outline.samples.windows(3).enumerate() {
             let here = distance(&near[1]);
             if here > distance(&near[0]) || here > distance(&near[2]) || k + 1 == nearest || !opposes(&near[1]) {
                 continue;
@@ -120,11 +100,18 @@ impl<'a> Target<'a> {
             if here.sqrt() - step < reached
                 && let Some(other) = self.descend(k + 1, seeker)
                 && self.distance(&other, seeker) < reached
+                && self.meant(&other, seeker)
             {
-                (reached, best) = (self.distance(&other, seeker), other);
+                (reached, best) = (self.distance(&other, seeker), Some(other));
             }
         }
-        Some(best)
+        best
+    }
+
+    /// False for what lies behind a point that is not inside the body, see [`Outline::entered`].
+    fn meant(&self, partner: &Partner, seeker: &Seeker) -> bool {
+        let (x, y) = (seeker.x, self.curve.place(&partner.shape, 0, self.points));
+        (y - x).dot(&seeker.normal) >= 0.0 || !self.outline.entered(x, y)
     }
 
     fn distance(&self, partner: &Partner, seeker: &Seeker) -> f64 {
@@ -139,17 +126,17 @@ impl<'a> Target<'a> {
             let [y, a, b] = [0, 1, 2].map(|k| self.curve.place(&shape, k, self.points));
             ((seeker.x - y).dot(&a), (seeker.x - y).dot(&b) - a.norm_squared())
         };
-        let at = |k: usize| (seeker.x - self.samples[k].y).dot(&self.samples[k].a);
+        let at = |k: usize| (seeker.x - self.outline.samples[k].y).dot(&self.outline.samples[k].a);
         let mut low = best.saturating_sub(1);
-        let mut high = (best + 1).min(self.samples.len() - 1);
+        let mut high = (best + 1).min(self.outline.samples.len() - 1);
         while low > 0 && at(low) < 0.0 {
             low -= 1;
         }
-        while high + 1 < self.samples.len() && at(high) > 0.0 {
+        while high + 1 < self.outline.samples.len() && at(high) > 0.0 {
             high += 1;
         }
-        let [low, high] = [low, high].map(|k| (self.samples[k].xi, at(k)));
-        let xi = root(value, low, high, self.samples[best].xi)?;
+        let [low, high] = [low, high].map(|k| (self.outline.samples[k].xi, at(k)));
+        let xi = root(value, low, high, self.outline.samples[best].xi)?;
         self.partner(xi, seeker)
     }
 
@@ -161,7 +148,7 @@ impl<'a> Target<'a> {
         };
         let offset = |s: &Sample| (s.y - seeker.x).dot(&seeker.tangent);
         let mut best: Option<(f64, Partner)> = None;
-        for pair in self.samples.windows(2) {
+        for pair in self.outline.samples.windows(2) {
             let (low, high) = (offset(&pair[0]), offset(&pair[1]));
             if low * high > 0.0 || pair.iter().all(|s| s.normal.dot(&seeker.normal) >= 0.0) {
                 continue;
@@ -183,7 +170,8 @@ impl<'a> Target<'a> {
                 .and_then(|xi| self.partner(xi, seeker));
             if let Some(partner) = found {
                 let distance = self.distance(&partner, seeker);
-                if best.as_ref().is_none_or(|(d, _)| distance < *d) {
+                let nearer = best.as_ref().is_none_or(|(d, _)| distance < *d);
+                if nearer && self.meant(&partner, seeker) {
                     best = Some((distance, partner));
                 }
             }

@@ -120,6 +120,9 @@ impl SiteState {
             stretch: self.stretch,
             variables: answer.variables.clone(),
             weakening: answer.weakening,
+            jumped: self.old[2] > 0.0
+                && answer.status != ContactStatus::Open
+                && self.site.group.iter().any(|&(i, c)| c != 0.0 && states[i].as_ref().is_some_and(|at| at.jumped)),
         }
     }
 }

@@ -24,6 +24,13 @@ struct Found {
     partners: Partners,
 }
 
+/// A copy has found nothing yet.
+impl Clone for StartPartners {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
 impl StartPartners {
     /// The partners at these positions; `find` looks for them where they are not those found last.
     pub fn at(&self, at: &Configuration, find: impl FnOnce() -> Partners) -> Partners {

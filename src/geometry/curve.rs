@@ -6,6 +6,9 @@ use super::basis::{Basis, Shape, find_span, rational};
 use super::refine::{self, Homogeneous};
 use super::{GeometryError, Point};
 
+/// Chords of the polygon that measures a span.
+const CHORDS: usize = 16;
+
 /// Boundary of a patch or of a rigid body in the reference configuration.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -52,6 +55,18 @@ impl Curve {
     /// Point of the reference curve.
     pub fn point(&self, xi: f64) -> Point {
         self.place(&self.shape(self.span_of(xi), xi), 0, &self.points)
+    }
+
+    /// Length of each span of the reference curve, along a fine polygon.
+    pub fn span_lengths(&self) -> Vec<f64> {
+        let place = |ends: &[f64], k: usize| self.point(ends[0] + (ends[1] - ends[0]) * k as f64 / CHORDS as f64);
+        let chords = |ends: &[f64]| (0..CHORDS).map(|k| (place(ends, k + 1) - place(ends, k)).norm()).sum();
+        self.basis.breaks().windows(2).map(chords).collect()
+    }
+
+    /// Length of the shortest span of the reference curve.
+    pub fn shortest_span(&self) -> f64 {
+        self.span_lengths().into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// Outward unit normal of the reference curve.

@@ -8,11 +8,11 @@ use crate::math::{SparseMatrix, System, Triplets, norm};
 
 use super::body::BodyKind;
 use super::motion::Control;
-use super::{Model, Pair, Side, State};
+use super::{Model, Pair, RateForces, Side, State};
 
 /// Residual, tangent and what was found on the way.
 pub struct Evaluation {
-    /// Internal plus interface force at every control point, before supports and loads: at a supported one the reaction.
+    /// Internal, interface and rate forces at every control point, before supports and loads: at a supported one the reaction.
     pub forces: Vec<Point>,
     /// Residual of the equations; all entries are forces per unit depth.
     pub residual: Vec<f64>,
@@ -24,6 +24,10 @@ pub struct Evaluation {
     pub strain_energy: f64,
     /// Largest nodal force among the parts of the residual: what a small residual is measured against.
     pub force_scale: f64,
+    /// Inertia and viscous forces, part of `forces`; empty where not modelled.
+    pub rates: RateForces,
+    /// Length of the step.
+    pub dt: f64,
 }
 
 impl Evaluation {
@@ -47,8 +51,11 @@ impl Evaluation {
 /// Evaluates a trial state for a step that starts at `start`. `None` where a body is turned inside out (`det F <= 0`).
 pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -> Option<Evaluation> {
     let wanted = tangent != Tangent::None;
-    let Bulk { mut forces, stiffness, strain_energy } = bulk(model, &trial.u, wanted)?;
+    let dt = trial.time - start.time;
+    let Bulk { mut forces, stiffness, strain_energy } = bulk(model, &trial.u, wanted.then_some(dt))?;
     let mut force_scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.amax()));
+    let rates = RateForces::of(model, start, &trial.u, trial.time);
+    rates.add(&mut forces, &mut force_scale);
     let interfaces = interfaces(model, start, trial, tangent);
     let mut residual = residual(model, &forces, trial.time);
     add_interface(model, &interfaces, &mut residual);
@@ -65,20 +72,22 @@ pub fn evaluate(model: &Model, start: &State, trial: &State, tangent: Tangent) -
         interface: interface(),
         boundary: model.boundary.clone(),
     });
-    Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale })
+    Some(Evaluation { forces, residual, system, interfaces, strain_energy, force_scale, rates, dt })
 }
 
 /// The bodies by themselves.
 pub(super) struct Bulk {
     /// Internal force at every control point.
     pub forces: Vec<Point>,
-    /// Stiffness, where asked for.
+    /// Stiffness, that of the rate forces included, where asked for.
     pub stiffness: Option<SparseMatrix>,
     pub strain_energy: f64,
 }
 
-/// Evaluates all bodies at the displacements `u`; `None` where one is turned inside out.
-pub(super) fn bulk(model: &Model, u: &[Point], wanted: bool) -> Option<Bulk> {
+/// Evaluates all bodies at the displacements `u`, with the stiffness for a step of a given length where one is given; `None` where
+/// a body is turned inside out.
+pub(super) fn bulk(model: &Model, u: &[Point], step: Option<f64>) -> Option<Bulk> {
+    let wanted = step.is_some();
     let mut forces = vec![Point::zeros(); model.nodes()];
     let mut values = if wanted { model.equations.constant.clone() } else { vec![] };
     values.resize(if wanted { model.equations.pattern.rows.len() } else { 0 }, 0.0);
@@ -97,7 +106,8 @@ pub(super) fn bulk(model: &Model, u: &[Point], wanted: bool) -> Option<Bulk> {
             })?;
         }
     }
-    let stiffness = wanted.then(|| {
+    let stiffness = step.map(|dt| {
+        model.add_rate_stiffness(dt, &mut values);
         let mut stiffness = SparseMatrix { pattern: model.equations.pattern.clone(), values };
         stiffness.mirror();
         stiffness
@@ -105,10 +115,14 @@ pub(super) fn bulk(model: &Model, u: &[Point], wanted: bool) -> Option<Bulk> {
     Some(Bulk { forces, stiffness, strain_energy })
 }
 
-/// Longest step that the laws of all pairs accept at the end of the step found; infinite without opinion.
-pub fn suggested_step(model: &Model, start: &State, found: &Evaluation, dt: f64) -> f64 {
+/// Longest step that the laws of all pairs and viscosity accept at the end of the step found, and who asks; infinite without opinion.
+pub fn suggested_step(model: &Model, start: &State, end: &State, found: &Evaluation) -> (f64, &'static str) {
+    let dt = end.time - start.time;
     let pairs = model.pairs.iter().zip(&start.pairs).zip(&found.interfaces);
-    pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt)).fold(f64::INFINITY, f64::min)
+    let laws = pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt));
+    let law = laws.fold(f64::INFINITY, f64::min);
+    let viscous = model.viscosity.as_ref().map_or(f64::INFINITY, |v| v.suggested_step(start, end, found));
+    if viscous < law { (viscous, "viscosity") } else { (law, "the friction law") }
 }
 
 /// Why a law gave no number in a trial evaluation of a step of length `dt`, with place and values; `None` where all did.

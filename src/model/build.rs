@@ -6,11 +6,12 @@ use std::sync::Arc;
 use asperity_laws::FrictionLaw;
 
 use crate::bulk::{Elements, Material, VolumeSpace, confinement};
-use crate::contact::{Integration, Mortar, Numerics, Projection, Sites};
+use crate::contact::{Integration, Mortar, Projection, Sites};
 use crate::geometry::{Basis, Curve, Edge, Patch, Point};
 use crate::math::gauss;
 
 use super::body::{Body, BodyKind};
+use super::choices::{multiplier, resolve};
 use super::equations::{Dof, Equations};
 use super::motion::{Control, Motion};
 use super::{Model, Pair, Side};
@@ -57,16 +58,17 @@ pub struct PairSpec {
     pub sites: Option<Sites>,
     /// Projection; default closest point, ray where the mortar curve has corners.
     pub projection: Option<Projection>,
-    /// Integration; default element by element, segments where a mortar curve of degree 2 or more has corners (element-wise
-    /// points then leave an error of several percent that does not fall with refinement).
+    /// Integration; default element by element.
     pub integration: Option<Integration>,
-    /// Gauss points per element or segment; default degree + 1, and 3 for degree 1.
+    /// Gauss points per element or segment; default degree + 1, at least 3, twice as many where a mortar curve of degree 2 or
+    /// more has corners inside, and at least one for each mortar element.
     pub points: Option<usize>,
     /// Augmentation of the pressure in units of `E/h`; default 1.
     pub r: Option<f64>,
     /// Augmentation of the traction in units of `E/h`; default as for the pressure.
     pub r_tangential: Option<f64>,
-    /// Multiplier basis on the spans of the nonmortar edge; default the functions of the edge.
+    /// Multiplier basis on the spans of the nonmortar edge; default the functions of the edge, linear ones for quadratic Lagrange
+    /// elements that are integrated across corners of the mortar curve.
     pub multiplier: Option<Arc<dyn Basis>>,
 }
 
@@ -203,6 +205,8 @@ impl Builder {
             boundary: boundary(&pairs, &equations),
             pairs,
             equations,
+            inertia: None,
+            viscosity: None,
         })
     }
 
@@ -224,7 +228,8 @@ impl Builder {
         let modulus = moduli.into_iter().flatten().reduce(f64::min);
         let modulus = modulus.ok_or_else(|| ModelError::BothRigid(spec.nonmortar.0.clone(), spec.mortar.0.clone()))?;
         let numerics = resolve(spec, &edge, &target);
-        let contact = Mortar::new(edge, target, spec.law.clone(), spec.multiplier.clone(), numerics, modulus);
+        let multiplier = spec.multiplier.clone().or_else(|| multiplier(&edge, &target, numerics.integration));
+        let contact = Mortar::new(edge, target, spec.law.clone(), multiplier, numerics, modulus);
         let size = modulus / crate::contact::ContactDiscretization::augmentation(&contact);
         Ok((Pair { nonmortar, mortar, contact: Arc::new(contact), offset }, size))
     }
@@ -252,37 +257,6 @@ fn boundary(pairs: &[Pair], equations: &Equations) -> Arc<[usize]> {
 fn point(bodies: &[Body], node: usize) -> Point {
     let body = &bodies[bodies.partition_point(|b| b.nodes().end <= node)];
     body.points[node - body.offset]
-}
-
-/// Fills in the choices that the user left open.
-fn resolve(spec: &PairSpec, edge: &Curve, target: &Curve) -> Numerics {
-    let (projection, integration) = match (has_corners(target), target.basis.degree()) {
-        (false, _) => (Projection::Closest, Integration::Element),
-        (true, 1) => (Projection::Ray, Integration::Element),
-        (true, _) => (Projection::Ray, Integration::Segment),
-    };
-    let r = spec.r.unwrap_or(1.0);
-    Numerics {
-        sites: spec.sites.unwrap_or(Sites::Quadrature),
-        projection: spec.projection.unwrap_or(projection),
-        integration: spec.integration.unwrap_or(integration),
-        points: spec.points.unwrap_or((edge.basis.degree() + 1).max(3)),
-        r,
-        r_tangential: spec.r_tangential.unwrap_or(r),
-    }
-}
-
-/// True where the curve is only continuous at some element end: it then has corners when it deforms.
-fn has_corners(curve: &Curve) -> bool {
-    let breaks = curve.basis.breaks();
-    (1..curve.spans()).any(|span| {
-        let [before, after] = [span - 1, span].map(|s| curve.shape(s, breaks[span]));
-        let slopes = |shape: &crate::geometry::Shape| -> Vec<(usize, f64)> {
-            (0..shape.count).map(|i| (shape.first + i, shape.d[1][i])).filter(|(_, v)| v.abs() > 1e-9).collect()
-        };
-        slopes(&before).len() != slopes(&after).len()
-            || slopes(&before).iter().zip(slopes(&after)).any(|(a, b)| a.0 != b.0)
-    })
 }
 
 /// Mean element length of a model without contact: square root of the mean element area.

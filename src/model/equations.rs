@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::bulk::Elements;
+use crate::bulk::{Elements, Material};
 use crate::geometry::Point;
 use crate::math::Pattern;
 
@@ -107,7 +107,8 @@ impl Equations {
         let diagonal = (0..count).map(|i| vec![i]);
         let pattern = Pattern::from_cliques(count, lists.iter().flatten().map(|l| known(l)).chain(diagonal));
         let scatter: Vec<Scatter> = lists.iter().map(|lists| Scatter::new(&pattern, lists)).collect();
-        let constant = constant(bodies, &pattern, &scatter);
+        let linear = |body: &Body| body.material().filter(|m| m.linear()).cloned();
+        let constant = at_rest(bodies, &pattern, &scatter, linear);
         Self { dofs, count, of_motion, pattern: Arc::new(pattern), scatter, constant }
     }
 
@@ -132,17 +133,20 @@ fn element_unknowns(body: &Body, dofs: &[[Dof; 2]]) -> Vec<Vec<Option<usize>>> {
         .collect()
 }
 
-/// Stiffness of the bodies of linear material, at no displacement as at any other.
-fn constant(bodies: &[Body], pattern: &Pattern, scatter: &[Scatter]) -> Vec<f64> {
+/// Stiffness at rest, lower half, of the bodies that have a `material` here; empty where none has.
+pub(super) fn at_rest(
+    bodies: &[Body],
+    pattern: &Pattern,
+    scatter: &[Scatter],
+    material: impl Fn(&Body) -> Option<Arc<dyn Material>>,
+) -> Vec<f64> {
     let mut values = Vec::new();
     for (body, scatter) in bodies.iter().zip(scatter) {
-        if let BodyKind::Deformable { elements, material, .. } = &body.kind
-            && material.linear()
-        {
+        if let (BodyKind::Deformable { elements, .. }, Some(material)) = (&body.kind, material(body)) {
             values.resize(pattern.rows.len(), 0.0);
             let rest = vec![Point::zeros(); body.points.len()];
             let add = |e: usize, found: crate::bulk::BulkForces| scatter.add(e, found.stiffness, &mut values);
-            elements.integrate(material.as_ref(), &rest, true, add).expect("a linear material has a state at rest");
+            elements.integrate(material.as_ref(), &rest, true, add).expect("every material has a state at rest");
         }
     }
     values

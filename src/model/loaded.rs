@@ -5,11 +5,11 @@ use crate::geometry::Point;
 use crate::math::{SparseMatrix, Triplets};
 
 use super::assembly::{at_contact, bulk, residual};
-use super::{Model, Pair, State};
+use super::{Model, Pair, RateForces, State};
 
 /// A trial configuration under given contact forces.
 pub struct Loaded {
-    /// `R_bulk(u) - loads` at the displacement equations (forces per unit depth): what contact has to balance.
+    /// `R_bulk(u) - loads`, rate forces included, at the displacement equations (forces per unit depth): what contact has to balance.
     pub bulk: Vec<f64>,
     /// Contact forces at the displacement equations, in the sign of the residual: `bulk + contact = 0` in equilibrium.
     pub contact: Vec<f64>,
@@ -28,7 +28,9 @@ pub struct Loaded {
 /// Evaluates displacements `u` at the end `time` of a step from `start`, with `loads` at the sites of each pair. `None` where a
 /// body is turned inside out.
 pub fn load(model: &Model, start: &State, u: &[Point], time: f64, loads: &[Vec<SiteLoad>]) -> Option<Loaded> {
-    let found = bulk(model, u, true)?;
+    let mut found = bulk(model, u, Some(time - start.time))?;
+    let mut force_scale = found.forces.iter().fold(0.0_f64, |m, f| m.max(f.amax()));
+    RateForces::of(model, start, u, time).add(&mut found.forces, &mut force_scale);
     let mut out = Loaded {
         bulk: residual(model, &found.forces, time),
         contact: vec![0.0; model.equations.count],
@@ -36,7 +38,7 @@ pub fn load(model: &Model, start: &State, u: &[Point], time: f64, loads: &[Vec<S
         stiffness: found.stiffness?,
         geometric: vec![],
         sites: vec![],
-        force_scale: found.forces.iter().fold(0.0, |m, f| m.max(f.amax())),
+        force_scale,
     };
     out.bulk.truncate(model.equations.count);
     for (k, pair) in model.pairs.iter().enumerate() {

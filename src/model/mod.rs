@@ -3,13 +3,18 @@
 mod assembly;
 mod body;
 mod build;
+mod choices;
+mod continued;
 mod drag;
 mod equations;
+mod inertia;
 mod linearised;
 mod loaded;
 mod motion;
+mod rates;
 mod record;
 mod state;
+mod viscosity;
 
 pub use crate::contact::{ContactStatus, Tangent};
 pub use assembly::{Evaluation, evaluate, explain, suggested_step};
@@ -17,11 +22,14 @@ pub use body::{Body, BodyKind};
 pub use build::{BodySpec, Builder, ModelError, PairSpec};
 pub use drag::Drag;
 pub use equations::{Dof, Equations};
+pub use inertia::{Inertia, Matter};
 pub use linearised::Linearised;
 pub use loaded::{Loaded, load};
 pub use motion::{Control, Motion, Table};
+pub use rates::{RateForces, Rates};
 pub use record::{InterfaceRow, Record, interface_rows, record, resistance};
 pub use state::{Ledger, PairState, State, Trend};
+pub use viscosity::Viscosity;
 
 use std::sync::Arc;
 
@@ -88,9 +96,19 @@ pub struct Model {
     pub stride: f64,
     /// Length scale: shortest element of the contact edges (mean element of the bodies where there is no contact).
     pub element_size: f64,
+    /// Mass and integrator, where inertia is modelled.
+    pub inertia: Option<Inertia>,
+    /// Viscous stresses, where there are any.
+    pub viscosity: Option<Viscosity>,
 }
 
 impl Model {
+    /// The same model with the augmentations of all pairs taken to a power: `1` leaves them, `0` makes them `E/h`.
+    pub fn eased(&self, power: f64) -> Self {
+        let ease = |pair: &Pair| Pair { contact: Arc::new(pair.contact.eased(power)), ..pair.clone() };
+        Self { pairs: self.pairs.iter().map(ease).collect(), ..self.clone() }
+    }
+
     /// Number of control points of all bodies.
     pub fn nodes(&self) -> usize {
         self.bodies.last().map_or(0, |b| b.offset + b.points.len())

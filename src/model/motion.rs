@@ -1,5 +1,7 @@
 //! Prescribed motions and forces of edges over time.
 
+use crate::geometry::Point;
+
 /// Piecewise linear in time, constant before the first and after the last entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -29,6 +31,15 @@ impl Table {
         self.value[next - 1] * (1.0 - share) + self.value[next] * share
     }
 
+    /// Slope right after time `t`.
+    pub fn slope(&self, t: f64) -> f64 {
+        let next = self.time.partition_point(|&s| s <= t);
+        if next == 0 || next == self.time.len() {
+            return 0.0;
+        }
+        (self.value[next] - self.value[next - 1]) / (self.time[next] - self.time[next - 1])
+    }
+
     /// True where the value never changes.
     pub fn is_constant(&self) -> bool {
         self.value.iter().all(|v| *v == self.value[0])
@@ -44,6 +55,15 @@ pub enum Control {
     Force(Table),
 }
 
+impl Control {
+    /// Its course in time.
+    pub fn table(&self) -> &Table {
+        match self {
+            Self::Displacement(table) | Self::Force(table) => table,
+        }
+    }
+}
+
 /// One component of one edge.
 #[derive(Clone, Debug)]
 pub struct Motion {
@@ -57,4 +77,14 @@ pub struct Motion {
     pub control: Control,
     /// True for `[[drive]]`, false for `[[support]]`.
     pub drive: bool,
+}
+
+impl Motion {
+    /// Way of the edge in its component between two times with their displacements.
+    pub fn travel(&self, time: [f64; 2], u: [&[Point]; 2]) -> f64 {
+        match &self.control {
+            Control::Displacement(table) => table.at(time[1]) - table.at(time[0]),
+            Control::Force(_) => self.nodes.first().map_or(0.0, |&i| (u[1][i] - u[0][i])[self.component]),
+        }
+    }
 }

@@ -15,7 +15,7 @@ pub struct Record {
     /// Displacement of the driven edge.
     pub drive: [f64; 2],
     /// Resistance `Fx` and support `Fy` felt by the driven body: positive when it is pushed onto its counterpart and
-    /// dragged in +x. Taken as the assembled reaction of its drives.
+    /// dragged in +x. Taken as the assembled reaction of its drives, less its rate of momentum.
     pub force: [f64; 2],
     /// `Fx / Fy`; `NaN` without contact.
     pub mu_global: f64,
@@ -41,7 +41,7 @@ pub struct Record {
     pub converged: bool,
     /// Wall time of the step in seconds.
     pub wall_s: f64,
-    /// Sum of the reactions on all other bodies, signed like `force`: equal to it in equilibrium.
+    /// Sum of the reactions on all other bodies, less their rate of momentum, signed like `force`: equal to it in equilibrium.
     pub reaction_base: [f64; 2],
     /// True where every closed site slips, all in the same direction.
     pub fully_slipping: bool,
@@ -56,6 +56,20 @@ pub struct Record {
     pub snaps: usize,
     /// Cumulative energy that they set free.
     pub snap_loss: f64,
+    /// Energy of motion.
+    pub kinetic_energy: f64,
+    /// Cumulative energy taken away by the time integration of inertia.
+    pub numerical_loss: f64,
+    /// Cumulative work of viscous stresses.
+    pub viscous_loss: f64,
+}
+
+impl Record {
+    /// Where the external work went: stored, kinetic, dissipated, set free by snaps, taken by integrator and viscosity.
+    pub fn accounted(&self) -> f64 {
+        let moving = self.kinetic_energy + self.numerical_loss + self.viscous_loss;
+        self.strain_energy + self.dissipated + self.snap_loss + moving
+    }
 }
 
 /// One row of `interface.csv`.
@@ -124,7 +138,8 @@ pub fn record(model: &Model, state: &State, evaluation: &Evaluation) -> Record {
     let up = upward(model);
     let reaction = |driven: bool| -> Vec2 {
         let supported = |(body, _): &(usize, Vec2)| (*body == model.driven) == driven;
-        reactions(model, evaluation).filter(supported).map(|(_, f)| f).sum()
+        reactions(model, evaluation).filter(supported).map(|(_, f)| f).sum::<Vec2>()
+            - momentum(model, evaluation, driven)
     };
     let [on_driven, on_base] = [reaction(true), reaction(false)];
     let contact = contact_length(evaluation);
@@ -145,6 +160,9 @@ pub fn record(model: &Model, state: &State, evaluation: &Evaluation) -> Record {
         strain_energy: evaluation.strain_energy,
         dissipated: state.ledger.dissipated,
         snap_loss: state.ledger.snap_loss,
+        kinetic_energy: model.kinetic_energy(state),
+        numerical_loss: state.ledger.numerical_loss,
+        viscous_loss: state.ledger.viscous_loss,
         external_work: state.ledger.external_work,
         converged: true,
         reaction_base: [-on_base.x, up * on_base.y],
@@ -179,6 +197,12 @@ fn reactions<'a>(model: &'a Model, evaluation: &'a Evaluation) -> impl Iterator<
             (k, Vec2::new(if held(k, i, 0) { f.x } else { 0.0 }, if held(k, i, 1) { f.y } else { 0.0 }))
         })
     })
+}
+
+/// Rate of momentum of the driven body, or of all others.
+fn momentum(model: &Model, evaluation: &Evaluation, driven: bool) -> Vec2 {
+    let bodies = model.bodies.iter().enumerate().filter(|(k, _)| (*k == model.driven) == driven);
+    bodies.flat_map(|(_, body)| evaluation.rates.inertia.get(body.nodes()).into_iter().flatten()).sum()
 }
 
 /// +1 where the driven body lies above the bodies it touches, -1 below.

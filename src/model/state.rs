@@ -6,7 +6,7 @@ use crate::contact::{ContactDiscretization, SiteMemory};
 use crate::geometry::Point;
 
 use super::record::motion_forces;
-use super::{Control, Dof, Evaluation, Model};
+use super::{Control, Dof, Evaluation, Model, Rates};
 
 /// Unknowns and memory of one contact pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,22 +28,38 @@ pub struct Ledger {
     pub dissipated: f64,
     /// Energy set free where an equilibrium path ended and the bodies snapped to another one.
     pub snap_loss: f64,
+    /// Energy stored in the bodies; none before the first step.
+    pub strain_energy: f64,
     /// Force of each motion at this state.
     pub forces: Vec<f64>,
+    /// Energy taken away by the time integration of inertia.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub numerical_loss: f64,
+    /// Work of viscous stresses.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub viscous_loss: f64,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 impl Ledger {
     /// Adds the work of all motions over a step by the trapezoidal rule and remembers their forces.
-    pub fn settle(&mut self, model: &Model, start: &State, u: &[Point], time: f64, evaluation: &Evaluation) {
+    fn settle(&mut self, model: &Model, start: &State, u: &[Point], time: f64, evaluation: &Evaluation) {
         let forces = motion_forces(model, evaluation);
         for (k, motion) in model.motions.iter().enumerate() {
-            let travel = match &motion.control {
-                Control::Displacement(table) => table.at(time) - table.at(start.time),
-                Control::Force(_) => motion.nodes.first().map_or(0.0, |&i| (u[i] - start.u[i])[motion.component]),
-            };
+            let travel = motion.travel([start.time, time], [&start.u, u]);
             self.external_work += 0.5 * (start.ledger.forces[k] + forces[k]) * travel;
         }
         self.forces = forces;
+        self.strain_energy = evaluation.strain_energy;
+    }
+
+    /// Energy set free since an earlier state: work less what is stored and dissipated.
+    pub fn released_since(&self, earlier: &Self) -> f64 {
+        let since = |of: fn(&Self) -> f64| of(self) - of(earlier);
+        since(|l| l.external_work) - since(|l| l.dissipated) - since(|l| l.strain_energy)
     }
 }
 
@@ -72,6 +88,9 @@ pub struct State {
     pub ledger: Ledger,
     /// Rates of the last step; `None` before the first.
     pub trend: Option<Trend>,
+    /// Velocity, acceleration and the forces that go with them; empty where not modelled.
+    #[serde(default, skip_serializing_if = "Rates::is_empty")]
+    pub rates: Rates,
 }
 
 impl State {
@@ -91,8 +110,12 @@ impl State {
             pairs: pairs.collect(),
             ledger: Ledger { forces: vec![0.0; model.motions.len()], ..Default::default() },
             trend: None,
+            rates: Rates::default(),
         };
         state.prescribe(model, 0.0);
+        if let Some((rates, forces)) = Rates::initial(model, &state) {
+            (state.rates, state.ledger.forces) = (rates, forces);
+        }
         state
     }
 
@@ -120,6 +143,21 @@ impl State {
                 }
             }
         }
+    }
+
+    /// Completes a converged step: memory of the sites, rates, work.
+    pub fn commit(&mut self, model: &Model, start: &State, evaluation: &Evaluation) {
+        for (pair, found) in self.pairs.iter_mut().zip(&evaluation.interfaces) {
+            pair.sites.clone_from(&found.memory);
+            self.ledger.dissipated += found.dissipated;
+        }
+        if model.has_rates() {
+            self.rates = Rates::after(model, start, self, &evaluation.rates);
+            let [numerical, viscous] = model.rate_losses(start, self);
+            self.ledger.numerical_loss += numerical;
+            self.ledger.viscous_loss += viscous;
+        }
+        self.ledger.settle(model, start, &self.u, self.time, evaluation);
     }
 
     /// Adds `factor` times a Newton increment (unknowns in the order of the equations; multipliers scaled by `r`).

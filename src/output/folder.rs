@@ -63,6 +63,11 @@ impl RunFolder {
         self.root.join("certify.csv")
     }
 
+    /// Path of `events.csv`.
+    pub fn events(&self) -> PathBuf {
+        self.root.join("events.csv")
+    }
+
     /// Path of `run.json`.
     pub fn run_json(&self) -> PathBuf {
         self.root.join("run.json")
@@ -88,21 +93,23 @@ impl RunFolder {
         Ok(path)
     }
 
-    /// Opens both tables: anew, or, with `resume_after`, continued behind that step.
+    /// Opens both tables (that of the history with `rates` or without, see [`super::tables::RATE_COLUMNS`]): anew, or, with `resume_after`, continued behind that step.
     ///
     /// # Errors
     /// The path and the reason if one of them cannot be opened.
     pub fn tables(
         &self,
         variables: &[String],
+        rates: bool,
         resume_after: Option<usize>,
     ) -> Result<(HistoryWriter, InterfaceWriter), OutputError> {
         let (history, interface) = (self.history(), self.interface());
         match resume_after {
-            None => Ok((HistoryWriter::create(&history)?, InterfaceWriter::create(&interface, variables)?)),
-            Some(step) => {
-                Ok((HistoryWriter::resume(&history, step)?, InterfaceWriter::resume(&interface, variables, step)?))
-            }
+            None => Ok((HistoryWriter::create(&history, rates)?, InterfaceWriter::create(&interface, variables)?)),
+            Some(step) => Ok((
+                HistoryWriter::resume(&history, rates, step)?,
+                InterfaceWriter::resume(&interface, variables, step)?,
+            )),
         }
     }
 
@@ -140,8 +147,9 @@ impl RunFolder {
         title: &str,
         units: &UnitLabels,
         variables: &[(String, String)],
+        rates: bool,
     ) -> Result<(), OutputError> {
-        let text = readme::text(title, units, variables);
+        let text = readme::text(title, units, variables, rates);
         write_atomic(&self.root.join("README.txt"), text.as_bytes())
     }
 }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use asperity_laws::{Unit, Variable};
 
-use super::tables::{CERTIFY_COLUMNS, HISTORY_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS};
+use super::tables::{CERTIFY_COLUMNS, EVENT_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS, history_columns};
 use super::units::{Quantity, UnitLabels};
 
 const HEAD: &str = "\
@@ -16,6 +16,7 @@ run.json        the input with all defaults, versions, counters, audit results a
 history.csv     one row per nominal step
 interface.csv   one row per interface site and nominal step
 certify.csv     one row per accepted step, where the run was certified
+events.csv      one row per way to a step that was given up, and why; only where there was trouble
 fields.pvd      opens all fields in ParaView (time series of fields/*.vtu)
 figures/        every figure as SVG (vector) and PNG; animation.svg moves in a browser
 checkpoint/     what `asperity run --resume` goes on from; not needed to read the results
@@ -26,19 +27,21 @@ Fields are rational Bezier cells in the reference position: apply Warp By Vector
 set Nonlinear Subdivision Level > 1 to see the curved edges. Stresses are Cauchy stresses.
 ";
 
-/// Text of `README.txt`; `variables` are the extra columns of `interface.csv` as (name, unit).
-pub fn text(title: &str, units: &UnitLabels, variables: &[(String, String)]) -> String {
+/// Text of `README.txt`; `variables` are the extra columns of `interface.csv` as (name, unit), `rates` says whether those of the
+/// history are there.
+pub fn text(title: &str, units: &UnitLabels, variables: &[(String, String)], rates: bool) -> String {
     let mut text = String::new();
     if !title.is_empty() {
         let _ = writeln!(text, "{title}\n");
     }
     let _ = writeln!(text, "{HEAD}\nUnits: {}", unit_line(units));
-    section(&mut text, "history.csv", &HISTORY_COLUMNS, units);
+    section(&mut text, "history.csv", history_columns(rates), units);
     section(&mut text, "interface.csv", &INTERFACE_COLUMNS, units);
     for (name, unit) in variables {
         let _ = writeln!(text, "{name:<18} {unit:<12} state variable of the friction law");
     }
     section(&mut text, "certify.csv", &CERTIFY_COLUMNS, units);
+    section(&mut text, "events.csv", &EVENT_COLUMNS, units);
     text
 }
 
@@ -64,7 +67,12 @@ fn unit_line(units: &UnitLabels) -> String {
     format!("length = {}, stress = {}, time = {}", name(&units.length), name(&units.stress), name(&units.time))
 }
 
-fn section(text: &mut String, file: &str, columns: &[(&str, Quantity, &str)], units: &UnitLabels) {
+fn section<'a>(
+    text: &mut String,
+    file: &str,
+    columns: impl IntoIterator<Item = &'a (&'a str, Quantity, &'a str)>,
+    units: &UnitLabels,
+) {
     let _ = writeln!(text, "\nColumns of {file}: name, unit, meaning");
     for (name, quantity, meaning) in columns {
         let _ = writeln!(text, "{name:<18} {:<12} {meaning}", unit(units, *quantity));

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::dynamics;
 use super::issue::{Issue, KeyPath, SceneError, listed};
 use super::motion::{Course, Motion};
 use super::numerics::{Integration, Projection, Sites, Volumetric, stable_degrees};
 use super::rules::law_issue;
 use super::spec::{BodySpec, ContactSpec, MaterialSpec, Scene};
-use crate::bulk::{LinearElastic, Material, NeoHookean};
+use crate::bulk::{LinearElastic, Material, NeoHookean, SaintVenantKirchhoff};
 use crate::contact;
 use crate::geometry::{self, BSpline, Basis, Edge, GeometryError, Point};
 use crate::model::{self, Builder, Control, Model, ModelError, PairSpec, State, Table, Tangent, evaluate};
@@ -35,6 +36,7 @@ pub fn build(scene: &Scene, base_dir: &Path) -> Result<Model, SceneError> {
     }
     motions(scene, &mut builder)?;
     let model = builder.build().map_err(|error| model_issue(&error, &KeyPath::of("contact")))?;
+    let model = dynamics::with_rates(scene, model);
     initial_overlap(scene, &model)?;
     Ok(model)
 }
@@ -148,11 +150,14 @@ fn turn(points: &mut [Point], centre: Point, degrees: f64) {
 
 fn material_of(spec: &MaterialSpec) -> Arc<dyn Material> {
     match *spec {
-        MaterialSpec::NeoHookean { youngs_modulus, poissons_ratio } => {
+        MaterialSpec::NeoHookean { youngs_modulus, poissons_ratio, .. } => {
             Arc::new(NeoHookean { youngs_modulus, poissons_ratio })
         }
-        MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio } => {
+        MaterialSpec::LinearElastic { youngs_modulus, poissons_ratio, .. } => {
             Arc::new(LinearElastic { youngs_modulus, poissons_ratio })
+        }
+        MaterialSpec::SaintVenantKirchhoff { youngs_modulus, poissons_ratio, .. } => {
+            Arc::new(SaintVenantKirchhoff { youngs_modulus, poissons_ratio })
         }
     }
 }
@@ -219,7 +224,7 @@ fn pair(contact: &ContactSpec, bodies: &Bodies, key: &KeyPath) -> Result<PairSpe
     })
 }
 
-/// Smooth splines of a lower degree on the elements of the nonmortar edge.
+/// The multipliers asked for: smooth splines of a lower degree on the elements of the nonmortar edge, or its own functions.
 fn multiplier(contact: &ContactSpec, bodies: &Bodies, key: KeyPath) -> Result<Option<Arc<dyn Basis>>, Issue> {
     let Some(degree) = contact.numerics.multiplier_degree else { return Ok(None) };
     let body = bodies.get(contact.nonmortar.body.as_str());
@@ -227,7 +232,8 @@ fn multiplier(contact: &ContactSpec, bodies: &Bodies, key: KeyPath) -> Result<Op
     let edge = patch.boundary(contact.nonmortar.edge).basis;
     let highest = edge.degree();
     if degree == highest {
-        return Ok(None);
+        // said by the user, so not left to the model; rational functions are those of the edge itself
+        return Ok((edge.name() == "lagrange").then_some(edge));
     }
     let stable = stable_degrees(&*edge);
     let allowed = listed(&stable.iter().map(usize::to_string).collect::<Vec<_>>());

@@ -141,7 +141,11 @@ impl Checkpoint {
         };
         let now = json(scene);
         let earlier = serde_json::from_value::<TimeSpec>(before["time"].clone());
-        if earlier.is_ok_and(|earlier| self.extends(&earlier, &scene.time)) {
+        // a relaxation time is a share of the end
+        let extends = |earlier: TimeSpec| {
+            self.extends(&earlier, &scene.time) && (scene.solution.viscosity == 0.0 || earlier.end == scene.time.end)
+        };
+        if earlier.is_ok_and(extends) {
             before["time"] = now["time"].clone();
         }
         let mut found = vec![];
@@ -212,5 +216,6 @@ fn fits(state: &State, model: &Model) -> bool {
         && state.pairs.len() == model.pairs.len()
         && state.pairs.iter().zip(&model.pairs).all(pair)
         && state.ledger.forces.len() == model.motions.len()
+        && state.rates.velocity.len() == if model.inertia.is_some() { model.nodes() } else { 0 }
         && state.trend.iter().all(|t| t.rate.len() == unknowns && [0, unknowns].contains(&t.change.len()))
 }

@@ -1,5 +1,6 @@
 //! The model chosen for a scene, in words: what is modelled, what is left out and why, how large it is.
 
+use super::dynamics;
 use super::numerics::Solver;
 use super::spec::Scene;
 use crate::contact::ContactDiscretization;
@@ -10,6 +11,7 @@ pub fn modelled(scene: &Scene, model: &Model) -> Vec<String> {
     let mut lines: Vec<String> = model.bodies.iter().map(|body| body_line(scene, body)).collect();
     lines.extend(model.pairs.iter().enumerate().map(|(k, pair)| pair_line(scene, model, k, pair)));
     lines.extend(model.motions.iter().map(|motion| motion_line(model, motion)));
+    lines.extend(dynamics::modelled(scene, model));
     lines
 }
 
@@ -71,7 +73,7 @@ fn motion_line(model: &Model, motion: &Motion) -> String {
 
 /// What is left out, and why, one sentence a line.
 pub fn left_out(scene: &Scene, model: &Model) -> Vec<String> {
-    let mut lines = vec!["inertia: the analysis is quasi-static".to_string()];
+    let mut lines = dynamics::left_out(scene);
     for (k, pair) in model.pairs.iter().enumerate() {
         if !pair.contact.rubs() {
             lines.push(format!("tangential unknowns of contact {k}: its law is frictionless at all times"));

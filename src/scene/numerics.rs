@@ -17,7 +17,8 @@ pub struct Numerics {
     pub projection: Projection,
     /// How the nonmortar edge is cut for integration.
     pub integration: Integration,
-    /// Gauss points on each element or segment; degree + 1, at least 3, if left out.
+    /// Gauss points on each element or segment; if left out degree + 1, at least 3. Twice as many on elements that meet quadratic
+    /// Lagrange elements, and at least one for each mortar element that a nonmortar element meets.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 32))]
     pub points: Option<usize>,
@@ -28,8 +29,8 @@ pub struct Numerics {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub r_tangential: Option<f64>,
-    /// Degree of the multipliers: that of the nonmortar edge (if left out), or lower by an even number. On quadratic
-    /// Lagrange elements also 1.
+    /// Degree of the multipliers: that of the nonmortar edge, or lower by an even number; on quadratic Lagrange elements also 1.
+    /// If left out that of the edge, but 1 where quadratic Lagrange elements meet others without segments.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 8))]
     pub multiplier_degree: Option<usize>,
@@ -91,7 +92,7 @@ pub enum Integration {
     Element,
     /// Gauss points on segments between the ends of nonmortar and projected mortar elements: passes the patch test exactly.
     Segment,
-    /// `segment` on mortar curves of degree 2 or more with corners (quadratic Lagrange), else `element`.
+    /// `element`.
     Auto,
 }
 
@@ -103,6 +104,10 @@ pub struct Solution {
     pub solver: Solver,
     /// How a Newton iteration treats contact. The solution does not depend on it.
     pub strategy: Strategy,
+    /// Viscous regularisation: relaxation time of the bodies in units of `time.end`; 0: none. A path of equilibria that ends is then
+    /// followed on in time instead of being crossed, and what viscosity takes is reported.
+    #[schemars(extend("minimum" = 0))]
+    pub viscosity: f64,
     /// Solve every accepted step a second time by the conic method and compare (`run --certify` and `asperity certify` set it).
     pub certify: bool,
 }

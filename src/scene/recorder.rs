@@ -65,8 +65,8 @@ impl<'a> Recorder<'a> {
         after: Option<usize>,
     ) -> Result<Self, OutputError> {
         let columns = Columns::new(model);
-        let (history, interface) = folder.tables(&columns.names(), after)?;
-        folder.write_readme(&scene.title, &labels(&scene.units), &columns.0)?;
+        let (history, interface) = folder.tables(&columns.names(), model.has_rates(), after)?;
+        folder.write_readme(&scene.title, &labels(&scene.units), &columns.0, model.has_rates())?;
         let fields = match scene.output.fields {
             0 => None,
             _ => Some(folder.fields(after)?),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use asperity_laws::LawError;
 
+use super::dynamics;
 use super::issue::{Issue, KeyPath};
 use super::motion::{Course, DriveSpec, Motion, SupportSpec};
 use super::numerics::Volumetric;
@@ -28,6 +29,7 @@ pub(super) fn check(scene: &Scene) -> Vec<Issue> {
         drive_rules(drive, &key, &mut issues);
     }
     prescribed_twice(scene, &mut issues);
+    issues.extend(dynamics::check(scene));
     for (i, contact) in scene.contact.iter().enumerate() {
         contact_rules(scene, contact, &KeyPath::of("contact").at(i), &mut issues);
     }
@@ -74,7 +76,7 @@ fn material_of(scene: &Scene, body: &BodySpec, key: &KeyPath, issues: &mut Vec<I
     }
 }
 
-/// A body without any support, drive or contact is free to fly: Newton's matrix would be singular.
+/// A body without any support, drive or contact is free to fly: without mass Newton's matrix would be singular.
 fn held(scene: &Scene, name: &str, body: &BodySpec, key: &KeyPath, issues: &mut Vec<Issue>) {
     let supported = scene.support.iter().any(|support| support.body == name);
     let driven = scene.drive.iter().any(|drive| drive.body == name);
@@ -84,9 +86,14 @@ fn held(scene: &Scene, name: &str, body: &BodySpec, key: &KeyPath, issues: &mut 
     // one contact can push a body away but not hold it
     let touches = |c: &&ContactSpec| c.nonmortar.body == name || c.mortar.body == name;
     let clamped = scene.contact.iter().filter(touches).count() > 1;
-    if !body.rigid && !supported && !driven && !clamped && !misspelt {
+    let flies = scene.dynamics.is_some();
+    if !flies && !body.rigid && !supported && !driven && !clamped && !misspelt {
         let issue = Issue::value(key.clone(), format!("nothing holds the body `{name}`"));
-        issues.push(issue.allowed("a [[support]], a [[drive]] or two contacts for each deformable body"));
+        issues.push(
+            issue
+                .allowed("a [[support]], a [[drive]] or two contacts for each deformable body")
+                .help("or inertia: [dynamics] and a density"),
+        );
     }
     if body.rigid && !scene.contact.iter().any(|contact| contact.mortar.body == name) {
         let issue = Issue::value(key.clone(), format!("the rigid body `{name}` is the mortar side of no contact"));

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use crate::contact::ContactDiscretization;
 use crate::math::Counters;
 use crate::model::{Body, Model, Pair, Record};
-use crate::output::tables::CertifyRow;
+use crate::output::tables::{CertifyRow, write_events};
 use crate::output::{OutputError, RunFolder, checkpoint};
 use crate::solve::{Control, Outcome, Status, Tools, proceed};
 use crate::verify::conic::{Companion, Stage};
@@ -105,6 +105,7 @@ pub fn resume(
         Ok::<(), OutputError>(())
     })?;
     certifier.take(at.step() + 1, fresh.take())?;
+    write_events(&folder.events(), &outcome.log.events)?;
     recorder.finish(scene)?;
     recorder.sync()?;
     certifier.draw(scene)?;
@@ -133,6 +134,8 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
         "sparse_lu_instead": {
             "indefinite": solver.indefinite, "coupled": solver.coupled, "inaccurate": solver.inaccurate,
         },
+        "events": outcome.log.events,
+        "earlier_events": outcome.log.dropped,
         "certified": certify::summary(&report.certified),
         "audit": {
             "passed": !report.findings.iter().any(Finding::failed),

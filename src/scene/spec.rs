@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
+use super::dynamics::DynamicsSpec;
 use super::motion::{DriveSpec, SupportSpec};
 use super::numerics::{Numerics, Solution, Volumetric};
 use crate::geometry::{BasisSpec, Edge, Grading, ShapeSpec};
@@ -42,6 +43,9 @@ pub struct Scene {
     pub contact: Vec<ContactSpec>,
     /// Duration and nominal steps.
     pub time: TimeSpec,
+    /// Inertia; quasi-static if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dynamics: Option<DynamicsSpec>,
     /// How the equations of a step are solved.
     #[serde(default)]
     pub solution: Solution,
@@ -74,6 +78,24 @@ pub enum MaterialSpec {
         /// Poisson's ratio; at 0.5 the material would be incompressible and `lambda` infinite.
         #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
         poissons_ratio: f64,
+        /// Mass per volume (stress time^2/length^2); matters with `[dynamics]` only.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        density: Option<f64>,
+    },
+    /// Hooke's law between Green's strain and the second Piola-Kirchhoff stress: large rotations, small strains; softens under
+    /// compression. For comparison with codes that use it.
+    SaintVenantKirchhoff {
+        /// Young's modulus (stress).
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        youngs_modulus: f64,
+        /// Poisson's ratio.
+        #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
+        poissons_ratio: f64,
+        /// Mass per volume (stress time^2/length^2); matters with `[dynamics]` only.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        density: Option<f64>,
     },
     /// Small strain: `sigma = lambda tr(eps) I + 2 mu eps`; for comparison with classical solutions.
     LinearElastic {
@@ -83,6 +105,10 @@ pub enum MaterialSpec {
         /// Poisson's ratio.
         #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
         poissons_ratio: f64,
+        /// Mass per volume (stress time^2/length^2); matters with `[dynamics]` only.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        density: Option<f64>,
     },
 }
 
@@ -116,6 +142,9 @@ pub struct BodySpec {
     /// Rotation about `position` after placing, in degrees, counter-clockwise.
     #[serde(default)]
     pub rotation: f64,
+    /// Velocity `[vx, vy]` of the whole body at time 0 (length/time), with `[dynamics]` only; at rest if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<[f64; 2]>,
 }
 
 fn quadratic() -> BasisSpec {

@@ -18,9 +18,8 @@ pub fn balanced(model: &Model, evaluation: &Evaluation) -> bool {
 /// The residual beyond round-off, entry by entry: that of a stiff body may be far above what a soft one bears.
 fn beyond<'a>(model: &'a Model, evaluation: &'a Evaluation) -> impl Iterator<Item = f64> + 'a {
     let unit = ROUND_OFF * model.size();
-    let entries = evaluation.residual.iter().zip(&model.stiffness);
-    entries.map(move |(r, stiffness)| {
-        let left = r.abs() - unit * stiffness;
+    evaluation.residual.iter().enumerate().map(move |(e, r)| {
+        let left = r.abs() - unit * model.stiffness_at(e, evaluation.dt);
         if left < 0.0 { 0.0 } else { left } // NaN stays
     })
 }

@@ -15,7 +15,7 @@ pub fn support_floating(model: &Model, evaluation: &Evaluation, entries: &mut Tr
         let motions = || model.motions.iter().zip(&model.equations.of_motion).filter(|(m, _)| m.body == k);
         let guided = motions().any(|(m, _)| matches!(m.control, Control::Displacement(_)));
         let loaded: Vec<usize> = motions().filter_map(|(_, equation)| *equation).collect();
-        if (guided && loaded.is_empty()) || model.bodies[k].is_rigid() && loaded.is_empty() {
+        if model.has_mass(k) || (guided && loaded.is_empty()) || model.bodies[k].is_rigid() && loaded.is_empty() {
             continue;
         }
         let holds = |status: ContactStatus| match status {
@@ -43,7 +43,7 @@ pub fn hint(model: &Model, evaluation: &Evaluation) -> String {
         motions.peek().is_some() && motions.all(|m| matches!(m.control, Control::Force(_)))
     };
     let sticks = |k: usize| evaluation.statuses_of(model, k).any(|status| status == ContactStatus::Stick);
-    match (0..model.bodies.len()).find(|&k| free(k) && !sticks(k)) {
+    match (0..model.bodies.len()).find(|&k| !model.has_mass(k) && free(k) && !sticks(k)) {
         Some(k) => format!(
             "; body `{}` is held by forces and contact alone and sticks nowhere: friction may be too weak for an equilibrium",
             model.bodies[k].name

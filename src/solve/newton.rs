@@ -9,7 +9,9 @@ use super::convergence::{balanced, forecast, largest, norm, stalled, tolerance};
 use super::failure::StepFailure;
 use super::floating::{hint, support_floating};
 use super::interface_loop::{Strategy, negative, settle};
-use super::predictor::{guesses, predict, trend};
+use super::log::{Rung, Tried};
+use super::predictor::{predict, trend};
+use super::sets::Sets;
 use super::weakening::{self, Linearisation};
 
 /// Growth of the residual that a full step may show.
@@ -27,48 +29,11 @@ pub struct NewtonReport {
     pub iterations: usize,
     /// Largest residual entry of every iterate.
     pub residuals: Vec<f64>,
-    /// True where only an iteration with lagged bound found it.
-    pub lagged: bool,
+    /// The rung that found it.
+    pub rung: Rung,
     /// Share of the bodies' tangential stiffness that friction takes away by falling with the slip rate; 0 where that is
     /// far from mattering. At 1 the quasi-static solution jumps.
     pub weakening: f64,
-}
-
-/// Solves the step from `start` to `time`, from the best of the guesses and, where Newton fails, from the next; where all
-/// fail, from each once more with contact settled in an inner loop, which costs more but cycles less.
-/// A law that weakens with the slip rate has a second way, see [`Linearisation`]: it is taken where the exact tangent
-/// fails, and where it ends in an unstable equilibrium. `iterations` counts the linear solves, failed attempts included.
-///
-/// # Errors
-/// The first failure; `start` is untouched.
-pub fn solve_step(
-    model: &Model,
-    start: &State,
-    time: f64,
-    strategy: Strategy,
-    solver: &mut dyn LinearSolver,
-    interrupt: &AtomicBool,
-    iterations: &mut usize,
-) -> Result<NewtonReport, StepFailure> {
-    let mut step = Step::new(model, start, strategy, solver, interrupt, iterations);
-    let mut failure = None;
-    let mut guesses = guesses(model, start, time, |found| balanced(model, found));
-    if guesses.first().is_some_and(|(_, forces)| balanced(model, forces)) {
-        let (guess, forces) = guesses.swap_remove(0);
-        return Ok(step.converged(guess, forces, vec![]));
-    }
-    let again = (strategy == Strategy::Monolithic).then_some(Strategy::Interface);
-    for strategy in [strategy].into_iter().chain(again) {
-        step.strategy = strategy;
-        for (guess, _) in &guesses {
-            match step.attempt(guess.clone()) {
-                Err(StepFailure::Interrupted) => return Err(StepFailure::Interrupted),
-                Err(error) => failure = failure.or(Some(error)),
-                done => return done,
-            }
-        }
-    }
-    Err(failure.unwrap_or(StepFailure::Inverted(0)))
 }
 
 /// Solves the step from `start` to `time` against drag of the given strength.
@@ -85,17 +50,21 @@ pub fn solve_dragged(
     iterations: &mut usize,
 ) -> Result<NewtonReport, StepFailure> {
     let step = Step::new(model, start, Strategy::Monolithic, solver, interrupt, iterations);
-    Step { drag: Some(drag), ..step }.attempt(predict(model, start, time))
+    Step { drag: Some(drag), ..step }.attempt(predict(model, start, time), Rung::Newton)
 }
 
 /// A step being solved.
 pub(super) struct Step<'a> {
-    model: &'a Model,
-    start: &'a State,
-    strategy: Strategy,
+    pub model: &'a Model,
+    /// Start of the step.
+    pub start: &'a State,
+    /// How the next attempt treats contact.
+    pub strategy: Strategy,
     solver: &'a mut dyn LinearSolver,
     interrupt: &'a AtomicBool,
     iterations: &'a mut usize,
+    /// Rungs that were left.
+    pub tried: Vec<Tried>,
     /// Whether friction fell with the slip rate at some iterate.
     weakens: bool,
     /// Drag with its strength.
@@ -112,34 +81,48 @@ impl<'a> Step<'a> {
         interrupt: &'a AtomicBool,
         iterations: &'a mut usize,
     ) -> Self {
-        Self { model, start, strategy, solver, interrupt, iterations, weakens: false, drag: None }
+        Self { model, start, strategy, solver, interrupt, iterations, tried: vec![], weakens: false, drag: None }
     }
 }
 
 impl Step<'_> {
+    /// The same step of another model with the same unknowns.
+    pub fn with<'b>(&'b mut self, model: &'b Model) -> Step<'b> {
+        Step::new(model, self.start, Strategy::Monolithic, self.solver, self.interrupt, self.iterations)
+    }
+
     /// From one guess: with the exact tangent, then, for a law that weakens, with lagged bound where that failed or found
-    /// an unstable equilibrium.
-    pub fn attempt(&mut self, guess: State) -> Result<NewtonReport, StepFailure> {
+    /// an unstable equilibrium. What is given up is noted under `rung`.
+    pub fn attempt(&mut self, guess: State, rung: Rung) -> Result<NewtonReport, StepFailure> {
         let exact = self.newton(guess.clone(), Linearisation::exact());
-        let stable = exact.as_ref().is_ok_and(|found| found.weakening < 1.0);
-        if stable || !self.weakens || matches!(exact, Err(StepFailure::Interrupted)) {
+        let exact = exact.map(|found| NewtonReport { rung, ..found });
+        match &exact {
+            Ok(found) if found.weakening < 1.0 => return exact,
+            Ok(found) => Tried::note(&mut self.tried, rung, &StepFailure::Unstable(found.weakening)),
+            Err(StepFailure::Interrupted) => return exact,
+            Err(failure) => Tried::note(&mut self.tried, rung, failure),
+        }
+        if !self.weakens {
             return exact;
         }
         match (exact, self.newton(guess, Linearisation::lagged())) {
-            (_, Ok(lagged)) => Ok(NewtonReport { lagged: true, ..lagged }),
-            (Ok(unstable), Err(_)) => Ok(unstable),
-            (Err(_), failure) => failure,
+            (_, Ok(lagged)) => Ok(NewtonReport { rung: Rung::Lagged, ..lagged }),
+            (exact, Err(failure)) => {
+                Tried::note(&mut self.tried, Rung::Lagged, &failure);
+                exact.map_err(|_| failure)
+            }
         }
     }
 
     fn newton(&mut self, mut trial: State, mut way: Linearisation) -> Result<NewtonReport, StepFailure> {
         let model = self.model;
         let mut evaluation = self.evaluate(&trial, way.tangent).ok_or(StepFailure::Inverted(0))?;
-        let mut residuals = Vec::new();
+        let (mut residuals, mut sets) = (Vec::new(), Sets::default());
         loop {
             let iteration = residuals.len();
             let size = largest(model, &evaluation);
             residuals.push(size);
+            sets.take(&evaluation);
             self.weakens |= weakening::weakens(&evaluation);
             if balanced(model, &evaluation) {
                 return Ok(self.converged(trial, evaluation, residuals));
@@ -149,10 +132,13 @@ impl Step<'_> {
             {
                 return Err(StepFailure::Law(why));
             }
-            if iteration == way.most() || size.is_nan() || (!way.lags() && stalled(&residuals)) {
-                let residual = size / evaluation.force_scale;
-                let hint = hint(model, &evaluation) + &self.weakening_hint(&trial, &way);
-                return Err(StepFailure::Iterations { iterations: iteration, residual, hint });
+            let cycle = if way.lags() { None } else { sets.period(&residuals) };
+            let stalls = cycle.is_some() || (!way.lags() && stalled(&residuals));
+            if iteration == way.most() || size.is_nan() || stalls {
+                let (iterations, residual) = (iteration, size / evaluation.force_scale);
+                let hints =
+                    [sets.unsettled(model, &evaluation), hint(model, &evaluation), self.weakening_hint(&trial, &way)];
+                return Err(StepFailure::Iterations { iterations, residual, cycle, hint: hints.concat() });
             }
             if self.interrupt.load(Ordering::Relaxed) {
                 return Err(StepFailure::Interrupted);
@@ -241,16 +227,12 @@ impl Step<'_> {
     }
 
     /// The trial state as the new committed one: internal variables, forces and work.
-    fn converged(&mut self, mut trial: State, evaluation: Evaluation, residuals: Vec<f64>) -> NewtonReport {
+    pub fn converged(&mut self, mut trial: State, evaluation: Evaluation, residuals: Vec<f64>) -> NewtonReport {
         let share = weakening::share(self.model, self.start, &trial, &evaluation, self.solver);
-        for (pair, found) in trial.pairs.iter_mut().zip(&evaluation.interfaces) {
-            pair.sites.clone_from(&found.memory);
-            trial.ledger.dissipated += found.dissipated;
-        }
+        trial.commit(self.model, self.start, &evaluation);
         trial.trend = Some(trend(self.model, self.start, &trial));
-        trial.ledger.settle(self.model, self.start, &trial.u, trial.time, &evaluation);
         let iterations = residuals.len().saturating_sub(1);
-        NewtonReport { state: trial, evaluation, iterations, residuals, lagged: false, weakening: share }
+        NewtonReport { state: trial, evaluation, iterations, residuals, rung: Rung::Newton, weakening: share }
     }
 
     fn weakening_hint(&mut self, trial: &State, way: &Linearisation) -> String {

@@ -52,7 +52,8 @@ fn extrapolate(model: &Model, start: &State, time: f64, trend: &Trend, parabola:
 fn land(model: &Model, start: &State, trial: &mut State) -> Option<Evaluation> {
     let mut found = evaluate(model, start, trial, Tangent::None)?;
     for (k, body) in model.bodies.iter().enumerate() {
-        let Some(direction) = load(model, k, trial.time).try_normalize(0.0) else { continue };
+        let falls = load(model, k, trial.time).try_normalize(0.0).filter(|_| !model.has_mass(k));
+        let Some(direction) = falls else { continue };
         for _ in 0..MAX_APPROACHES {
             let touches = found.statuses_of(model, k).any(|status| status != ContactStatus::Open);
             let gap = found.interfaces_of(model, k).fold(f64::INFINITY, |m, i| m.min(i.smallest_gap));
@@ -79,6 +80,18 @@ fn load(model: &Model, body: usize, time: f64) -> Point {
     load
 }
 
+/// First guess of a step: bodies with mass fly on, others as in [`predict`].
+fn ahead(model: &Model, start: &State, time: f64) -> State {
+    match model.ballistic(start, time) {
+        Some(u) => {
+            let mut trial = State { u, ..start.clone() };
+            trial.prescribe(model, time);
+            trial
+        }
+        None => predict(model, start, time),
+    }
+}
+
 /// Guesses for the end of a step with their forces, the one with the smallest residual first; those that turn a body inside
 /// out are left out. One that is good enough as it is comes alone: nothing touches, or nothing moves.
 pub fn guesses(
@@ -88,7 +101,7 @@ pub fn guesses(
     enough: impl Fn(&Evaluation) -> bool,
 ) -> Vec<(State, Evaluation)> {
     let judge = |mut trial: State| land(model, start, &mut trial).map(|found| (trial, found));
-    let rigid = judge(predict(model, start, time));
+    let rigid = judge(ahead(model, start, time));
     if rigid.as_ref().is_some_and(|(_, found)| enough(found)) {
         return rigid.into_iter().collect();
     }

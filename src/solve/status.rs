@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::State;
 
+use super::log::Log;
+
 /// How the march ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Status {
@@ -42,6 +44,8 @@ pub struct Outcome {
     pub rescued: usize,
     /// Snaps that were crossed, see `solve::crossing`.
     pub snaps: usize,
+    /// Steps that needed more than the first rung of the ladder.
+    pub log: Log,
     /// Length of the step to be tried next; remembered from one nominal step to the next.
     pub dt: f64,
     /// Longest step that the law accepted last.
@@ -61,6 +65,7 @@ impl Outcome {
             lagged: 0,
             rescued: 0,
             snaps: 0,
+            log: Log::default(),
             dt: any,
             law: any,
         }

@@ -10,9 +10,18 @@ use cpu_time::ThreadTime;
 use super::{PointState, PointStatus};
 use crate::model::Record;
 use crate::output::{OutputError, RunFolder};
-use crate::scene::{self, RunReport, Scene, SceneError};
+use crate::scene::{self, Checkpoint, RunReport, Scene, SceneError};
 use crate::solve::Status;
 use crate::verify::Finding;
+
+/// Where a run begins that was stopped before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Start {
+    /// At its last checkpoint.
+    GoOn,
+    /// At the beginning, so that its cost is that of the whole.
+    Anew,
+}
 
 /// Computes a scene on this thread into the folder at `path`, and leaves its status there. Files that the scene names are
 /// looked for in `base_dir`.
@@ -20,14 +29,16 @@ pub(super) fn compute_scene(
     scene: impl FnOnce() -> Result<Scene, SceneError>,
     base_dir: &Path,
     path: &Path,
+    start: Start,
     interrupt: &AtomicBool,
     watch: impl FnMut(&Record),
 ) -> PointStatus {
     let (clock, cpu) = (Instant::now(), ThreadTime::now());
+    let stopped = matches!(PointStatus::read(path).status, PointState::Interrupted | PointState::Running);
     let attempt = || {
         let run = RunFolder::create(path)?;
         PointStatus::plain(PointState::Running).write(path)?;
-        computed(scene, base_dir, &run, interrupt, watch)
+        computed(scene, base_dir, &run, stopped && start == Start::GoOn, interrupt, watch)
     };
     let over = catch_unwind(AssertUnwindSafe(attempt));
     let (status, reason) = match over {
@@ -47,6 +58,7 @@ fn computed(
     scene: impl FnOnce() -> Result<Scene, SceneError>,
     base_dir: &Path,
     folder: &RunFolder,
+    resume: bool,
     interrupt: &AtomicBool,
     watch: impl FnMut(&Record),
 ) -> Result<(PointState, String), OutputError> {
@@ -55,8 +67,12 @@ fn computed(
         Ok((scene, model))
     });
     match built {
-        // a point that was stopped begins again: points are short, and done or not done
-        Ok((scene, model)) => Ok(ending(&scene::run(&scene, &model, folder, interrupt, watch)?)),
+        Ok((scene, model)) => {
+            // a checkpoint that cannot be read costs the steps before it, no more
+            let kept = resume.then(|| Checkpoint::load(folder, &scene, &model).ok().flatten()).flatten();
+            let start = kept.unwrap_or_else(|| Checkpoint::start(&scene, &model));
+            Ok(ending(&scene::resume(&scene, &model, folder, start, interrupt, watch)?))
+        }
         Err(error) => Ok((PointState::BadInput, in_one_line(&error))),
     }
 }

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
-use crate::output::tables::HISTORY_COLUMNS;
+use crate::output::tables::history_columns;
 use crate::scene::OutputSpec;
 
 /// A scene computed again and again with some of its values changed.
@@ -172,13 +172,13 @@ fn time() -> String {
 }
 
 fn history_column(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "type": "string", "enum": HISTORY_COLUMNS.map(|column| column.0) })
+    json_schema!({ "type": "string", "enum": history_columns(true).map(|column| column.0).collect::<Vec<_>>() })
 }
 
 fn windows(_: &mut SchemaGenerator) -> Schema {
     let window = json_schema!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
     let columns: serde_json::Map<String, serde_json::Value> =
-        HISTORY_COLUMNS.iter().map(|column| (column.0.to_owned(), window.clone().to_value())).collect();
+        history_columns(true).map(|column| (column.0.to_owned(), window.clone().to_value())).collect();
     json_schema!({ "type": "object", "properties": columns, "additionalProperties": false })
 }
 

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 
-use super::compute::compute_scene;
+use super::compute::{Start, compute_scene};
 use super::{Point, PointStatus, Study, StudyFolder};
 use crate::model::Record;
 
@@ -71,7 +71,7 @@ fn work<'p>(
     }
 }
 
-/// Computes one point into its folder, and leaves its status there.
+/// Computes one point into its folder, from where it was stopped if it was, and leaves its status there.
 pub fn compute(
     study: &Study,
     folder: &StudyFolder,
@@ -80,5 +80,5 @@ pub fn compute(
     watch: impl FnMut(&Record),
 ) -> PointStatus {
     let scene = || study.scene(point.index).map(|(scene, _)| scene);
-    compute_scene(scene, study.base_dir(), &folder.point(point), interrupt, watch)
+    compute_scene(scene, study.base_dir(), &folder.point(point), Start::GoOn, interrupt, watch)
 }

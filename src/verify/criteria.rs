@@ -94,3 +94,19 @@ pub const SNAP: Criterion = Criterion {
               effect of soft, steep asperities; without inertia the equilibrium behind need not be the one that a fast \
               motion reaches",
 };
+/// What a user who asked for inertia would want to know of.
+pub const NUMERICAL_LOSS: Criterion = Criterion {
+    name: "numerical_loss",
+    tolerance: 0.05,
+    severity: Warning,
+    meaning: "energy that the time integration of inertia took away, over the largest energy; more means that motions which \
+              matter are too fast for the steps: take more `time.steps`, or a `dynamics.spectral_radius` nearer to 1",
+};
+/// A regularisation that takes more is a part of the model.
+pub const VISCOSITY: Criterion = Criterion {
+    name: "viscosity",
+    tolerance: 0.02,
+    severity: Warning,
+    meaning: "work of the viscous stresses over the largest energy; more means that `solution.viscosity` changes the result \
+              (or that it took the place of a snap: then this share tends to what the snap sets free, not to 0, as it falls)",
+};

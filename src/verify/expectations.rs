@@ -19,6 +19,10 @@ pub struct Expectations {
     pub dissipative: bool,
     /// True where all work is done by the motion that records report: steps then bound the error of the work.
     pub single_drive: bool,
+    /// True where inertia is modelled.
+    pub inertia: bool,
+    /// True where bodies are viscous.
+    pub viscosity: bool,
     /// Shortest contact element.
     pub element_size: f64,
     /// Force per depth below which forces are not told from zero.
@@ -32,6 +36,8 @@ impl Expectations {
             friction: if one_sided(model) { shared_friction(&model.pairs) } else { None },
             dissipative: model.pairs.iter().all(|pair| pair.contact.law().is_none_or(|law| dissipates(&**law))),
             single_drive: single_drive(model),
+            inertia: model.inertia.is_some(),
+            viscosity: model.viscosity.is_some(),
             element_size: model.element_size,
             negligible_force: NEGLIGIBLE * model.modulus * model.size(),
         }

@@ -1,6 +1,7 @@
-//! A look at mesh and time plan before anything is computed: edges that cannot be integrated, steps that contact cannot follow.
+//! A look at mesh and time plan before anything is computed: edges that cannot be integrated, elements that do not see
+//! each other, steps that contact cannot follow.
 
-use crate::model::{Control, Model, Pair};
+use crate::model::{Control, Model, Pair, Side};
 use crate::solve;
 
 /// Nominal steps beyond this many contact elements are reported: Newton's method then starts far from the solution, and
@@ -14,18 +15,37 @@ const MISSED: f64 = 0.01;
 
 /// All warnings, in words; empty where nothing is wrong.
 pub fn warnings(model: &Model, plan: &solve::Control) -> Vec<String> {
-    let edges = model.pairs.iter().filter_map(|pair| edge_warning(model, pair));
+    let edges = model.pairs.iter().flat_map(|pair| edge_warnings(model, pair));
     edges.chain(step_warnings(model, plan)).collect()
 }
 
+fn edge_warnings(model: &Model, pair: &Pair) -> impl Iterator<Item = String> {
+    let [nonmortar, mortar] = pair.contact.lengths();
+    let name = |side: &Side| model.bodies[side.body].name.as_str();
+    let crowded = [(&pair.nonmortar, nonmortar), (&pair.mortar, mortar)];
+    let crowded = crowded.into_iter().filter_map(move |(side, lengths)| crowding(name(side), lengths));
+    crowded.chain(contrast(pair, [name(&pair.nonmortar), name(&pair.mortar)]))
+}
+
 /// Weights far apart crowd the elements: their integration points then miss most of the edge, and of the body behind it.
-fn edge_warning(model: &Model, pair: &Pair) -> Option<String> {
-    let [measured, length] = pair.contact.lengths();
-    let name = &model.bodies[pair.nonmortar.body].name;
+fn crowding(name: &str, [measured, length]: [f64; 2]) -> Option<String> {
     ((measured / length - 1.0).abs() > MISSED).then(|| {
         format!(
             "the contact edge of body {name} is {length:.3e} long, but its integration points measure {measured:.3e}: its weights \
              crowd the elements, and forces will be wrong by as much; take weights nearer to one another, or more elements"
+        )
+    })
+}
+
+/// Mortar elements so short that a nonmortar element has not even one integration point for each.
+fn contrast(pair: &Pair, [nonmortar, mortar]: [&str; 2]) -> Option<String> {
+    let (contrast, points) = (pair.contact.contrast(), pair.contact.numerics().points);
+    (contrast > points as f64).then(|| {
+        format!(
+            "the contact elements of body {nonmortar} are {contrast:.1} times as long as those of body {mortar} and have {points} \
+             integration points each, which cannot see every one of those: take `numerics.points = {}`, or body {mortar} as the nonmortar \
+             side",
+            contrast.ceil()
         )
     })
 }

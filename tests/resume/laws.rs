@@ -5,7 +5,7 @@ mod support;
 
 use asperity::laws::{FrictionLaw, LawInfo, Range, linked, parse};
 use asperity::math::{CondensedSolver, LinearSolver, SolverMemory, SparseLu};
-use asperity::model::{Model, State};
+use asperity::model::{Matter, Model, State};
 use asperity::output::checkpoint::{decode, encode};
 use asperity::scene::{Scene, build};
 use asperity::solve::{Control, Outcome, Status, Tools, proceed};
@@ -88,6 +88,14 @@ fn every_law_goes_on_bit_for_bit() {
 #[test]
 fn the_other_solver_goes_on_too() {
     goes_on("sparse LU", &pass(&climb()), || Box::new(SparseLu::default()));
+}
+
+/// Velocities, accelerations and the forces of inertia and viscosity are part of a checkpoint.
+#[test]
+fn moving_bodies_go_on_too() {
+    let matter = |_: &asperity::model::Body| Matter { density: 0.01, velocity: [0.1, 0.0] };
+    let model = pass(&climb()).with_inertia(0.8, matter).with_viscosity(0.05);
+    goes_on("inertia and viscosity", &model, || Box::new(CondensedSolver::default()));
 }
 
 /// On thin bodies the solver keeps only what touches out of the interior, and chooses anew as the contact moves: the choice shows in

@@ -1,8 +1,9 @@
-//! Where the external work went, and what the balance leaves open; energy set free by snaps is drawn where there is any.
+//! Where the external work went, and what the balance leaves open; energy of motion, of snaps, and what integrator and viscosity took
+//! are drawn where there is any.
 
 use super::axis::range;
 use super::chart::{Chart, Column, Series};
-use super::palette::{BLUE, GREEN, INK, VERMILLION};
+use super::palette::{BLUE, GREEN, GREY, INK, PURPLE, VERMILLION};
 use super::{Instant, abscissa, marks};
 use crate::model::Record;
 use crate::output::{Quantity, UnitLabels};
@@ -23,12 +24,22 @@ pub fn svg(records: &[Record], instants: &[Instant], units: &UnitLabels) -> Stri
     if snaps {
         parts.push(Series::new("set free by snaps *S*", INK, curve(&|record| record.snap_loss)).dashed("3 1.2"));
     }
-    let used = |record: &Record| record.strain_energy + record.dissipated + record.snap_loss;
-    let open = curve(&|record| record.external_work - used(record));
-    let balance = if snaps { "*W* − *U* − *D* − *S*" } else { "*W* − *U* − *D*" };
+    let moving = records.iter().any(|record| record.kinetic_energy != 0.0);
+    if moving {
+        parts.push(Series::new("kinetic *T*", PURPLE, curve(&|record| record.kinetic_energy)).dashed("6 1.2 1.2 1.2"));
+    }
+    let taken = |record: &Record| record.numerical_loss + record.viscous_loss;
+    let lost = records.iter().any(|record| taken(record) != 0.0);
+    if lost {
+        parts.push(Series::new("integrator and viscosity *N*", GREY, curve(&taken)).dashed("2.4 1.2"));
+    }
+    let open = curve(&|record| record.external_work - record.accounted());
+    let terms = [(snaps, " − *S*"), (moving, " − *T*"), (lost, " − *N*")];
+    let balance =
+        "*W* − *U* − *D*".to_owned() + &terms.iter().filter(|(there, _)| *there).map(|t| t.1).collect::<String>();
     let charts = vec![
         chart(units.axis("energy per depth", Quantity::Energy), 104.0, parts),
-        chart(balance.into(), 44.0, vec![Series { width: 1.0, ..Series::new("", INK, open) }]),
+        chart(balance, 44.0, vec![Series { width: 1.0, ..Series::new("", INK, open) }]),
     ];
     Column { marks: marks(&x, instants), x_range: x.range(), x_label: x.label, charts, ..Column::default() }.draw()
 }

@@ -14,6 +14,8 @@ pub const BLUE: &str = "#0072b2";
 pub const VERMILLION: &str = "#d55e00";
 /// Bluish green of Okabe and Ito.
 pub const GREEN: &str = "#007f5f";
+/// Reddish purple of Okabe and Ito.
+pub const PURPLE: &str = "#cc79a7";
 /// Pale blue for areas behind lines.
 pub const PALE_BLUE: &str = "#d3e5f1";
 

@@ -66,6 +66,7 @@ fn row(step: usize, time: f64, force: [f64; 2], work: f64) -> Record {
         weakening: 0.0,
         snaps: 0,
         snap_loss: 0.0,
+        ..Record::default()
     }
 }
 

@@ -70,7 +70,7 @@ pub fn summary(records: &[Record], units: &UnitLabels) -> Vec<Vec<Cell>> {
 /// Energies at the end, and what their balance leaves open.
 pub fn energies(records: &[Record], units: &UnitLabels) -> Vec<Vec<Cell>> {
     let Some(last) = records.last() else { return vec![] };
-    let open = last.external_work - last.strain_energy - last.dissipated - last.snap_loss;
+    let open = last.external_work - last.accounted();
     let absolute: f64 = records.windows(2).map(|pair| (pair[1].external_work - pair[0].external_work).abs()).sum();
     let row = |name: &str, value: f64| {
         let share = format!("{} %", short(100.0 * value / absolute));
@@ -80,13 +80,20 @@ pub fn energies(records: &[Record], units: &UnitLabels) -> Vec<Vec<Cell>> {
             Cell::number(if absolute > 0.0 { share } else { String::new() }),
         ]
     };
-    vec![
+    let moving = [
+        ("kinetic at the end", last.kinetic_energy),
+        ("taken by the time integration", last.numerical_loss),
+        ("taken by viscosity", last.viscous_loss),
+    ];
+    let mut rows = vec![
         row("work of drives, supports and loads", last.external_work),
         row("dissipated by friction", last.dissipated),
         row("stored in the bodies at the end", last.strain_energy),
         row("set free by sudden changes of equilibrium", last.snap_loss),
-        row("left open by finite steps", open),
-    ]
+    ];
+    rows.extend(moving.iter().filter(|(_, value)| *value != 0.0).map(|(name, value)| row(name, *value)));
+    rows.push(row("left open by finite steps", open));
+    rows
 }
 
 /// Rows of the history that fit into a page, and the columns that matter.

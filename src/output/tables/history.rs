@@ -40,27 +40,40 @@ pub const HISTORY_COLUMNS: [(&str, Quantity, &str); 26] = [
     ("snap_loss", Quantity::Energy, "energy set free by them since the start"),
 ];
 
+/// Further columns of runs with inertia or viscosity.
+pub const RATE_COLUMNS: [(&str, Quantity, &str); 3] = [
+    ("kinetic_energy", Quantity::Energy, "energy of motion"),
+    ("numerical_loss", Quantity::Energy, "energy taken away by the time integration of inertia since the start"),
+    ("viscous_loss", Quantity::Energy, "work of viscous stresses since the start"),
+];
+
+/// Columns of a run, with or without inertia or viscosity.
+pub fn history_columns(rates: bool) -> impl Iterator<Item = &'static (&'static str, Quantity, &'static str)> {
+    HISTORY_COLUMNS.iter().chain(RATE_COLUMNS.iter().filter(move |_| rates))
+}
+
 /// Appends to `history.csv`; a row is on disk when `append` returns.
 #[derive(Debug)]
 pub struct HistoryWriter {
     table: Table,
+    rates: bool,
 }
 
 impl HistoryWriter {
-    /// Starts a new table; an existing file is replaced.
+    /// Starts a new table, with [`RATE_COLUMNS`] or without; an existing file is replaced.
     ///
     /// # Errors
     /// The path and the reason if it cannot be written.
-    pub fn create(path: &Path) -> Result<Self, OutputError> {
-        Ok(Self { table: Table::create(path, &header())? })
+    pub fn create(path: &Path, rates: bool) -> Result<Self, OutputError> {
+        Ok(Self { table: Table::create(path, &header(rates))?, rates })
     }
 
     /// Continues an existing table after `last_step`: rows of later steps and a half-written last row are dropped.
     ///
     /// # Errors
     /// The path and the reason if it cannot be read or written, or if its columns are others.
-    pub fn resume(path: &Path, last_step: usize) -> Result<Self, OutputError> {
-        Ok(Self { table: Table::resume(path, &header(), last_step)? })
+    pub fn resume(path: &Path, rates: bool, last_step: usize) -> Result<Self, OutputError> {
+        Ok(Self { table: Table::resume(path, &header(rates), last_step)?, rates })
     }
 
     /// Appends one row and flushes it.
@@ -68,7 +81,11 @@ impl HistoryWriter {
     /// # Errors
     /// The path and the operating system's reason.
     pub fn append(&mut self, record: &Record) -> Result<(), OutputError> {
-        self.table.rows(std::iter::once(cells(record)))
+        let mut row = cells(record);
+        if self.rates {
+            row.extend([record.kinetic_energy, record.numerical_loss, record.viscous_loss].map(number));
+        }
+        self.table.rows(std::iter::once(row))
     }
 
     /// Waits until all rows are on the disk itself.
@@ -80,8 +97,8 @@ impl HistoryWriter {
     }
 }
 
-fn header() -> Vec<String> {
-    HISTORY_COLUMNS.iter().map(|column| column.0.to_owned()).collect()
+fn header(rates: bool) -> Vec<String> {
+    history_columns(rates).map(|column| column.0.to_owned()).collect()
 }
 
 fn cells(record: &Record) -> Vec<String> {
@@ -119,12 +136,13 @@ fn cells(record: &Record) -> Vec<String> {
 pub fn read_history(path: &Path) -> Result<Vec<Record>, OutputError> {
     let names: Vec<&str> = HISTORY_COLUMNS.iter().map(|column| column.0).collect();
     let (header, rows) = read_cells(path, &names)?;
-    rows.iter().map(|cells| record(Row::new(cells, &header, path))).collect()
+    let rates = header.get(names.len()).is_some_and(|name| name == RATE_COLUMNS[0].0);
+    rows.iter().map(|cells| record(Row::new(cells, &header, path), rates)).collect()
 }
 
-fn record(mut row: Row) -> Result<Record, OutputError> {
+fn record(mut row: Row, rates: bool) -> Result<Record, OutputError> {
     // Fields are evaluated in the order written, which is the order of the columns.
-    Ok(Record {
+    let mut record = Record {
         step: row.take()?,
         time: row.take()?,
         drive: row.pair()?,
@@ -148,5 +166,10 @@ fn record(mut row: Row) -> Result<Record, OutputError> {
         weakening: row.take()?,
         snaps: row.take()?,
         snap_loss: row.take()?,
-    })
+        ..Record::default()
+    };
+    if rates {
+        (record.kinetic_energy, record.numerical_loss, record.viscous_loss) = (row.take()?, row.take()?, row.take()?);
+    }
+    Ok(record)
 }

@@ -1,12 +1,14 @@
 //! `history.csv` and `interface.csv`: plain column names in the first line, one flushed row per record.
 
 mod certify;
+mod events;
 mod history;
 mod interface;
 mod point;
 
 pub use certify::{CERTIFY_COLUMNS, CertifyRow, CertifyWriter};
-pub use history::{HISTORY_COLUMNS, HistoryWriter, read_history};
+pub use events::{EVENT_COLUMNS, write_events};
+pub use history::{HISTORY_COLUMNS, HistoryWriter, RATE_COLUMNS, history_columns, read_history};
 pub use interface::{INTERFACE_COLUMNS, InterfaceWriter, read_interface};
 pub use point::{POINT_COLUMNS, write_point};
 
@@ -177,7 +179,7 @@ mod tests {
         records[1].strain_energy = 1.0 / 3.0 * 1e-200;
         let mut rows = synthetic::interface(&records, 0.3);
         rows.iter_mut().for_each(|row| row.variables = vec![row.x / 3.0]);
-        let (mut history, mut interface) = folder.tables(&["z".into()], None).unwrap();
+        let (mut history, mut interface) = folder.tables(&["z".into()], false, None).unwrap();
         for record in &records {
             history.append(record).unwrap();
         }
@@ -191,7 +193,7 @@ mod tests {
     #[test]
     fn rows_are_on_disk_before_the_writer_is_gone() {
         let folder = folder("kill");
-        let (mut history, _interface) = folder.tables(&[], None).unwrap();
+        let (mut history, _interface) = folder.tables(&[], false, None).unwrap();
         history.append(&synthetic::pass(5, 0.3)[0]).unwrap();
         let text = fs::read_to_string(folder.history()).unwrap();
         assert_eq!(text.lines().count(), 2);
@@ -205,11 +207,11 @@ mod tests {
     fn resume_drops_later_and_half_written_rows() {
         let folder = folder("resume");
         let records = synthetic::pass(6, 0.3);
-        let (mut history, _interface) = folder.tables(&[], None).unwrap();
+        let (mut history, _interface) = folder.tables(&[], false, None).unwrap();
         records[..4].iter().for_each(|record| history.append(record).unwrap());
         let whole = fs::read_to_string(folder.history()).unwrap();
         fs::write(folder.history(), &whole[..whole.len() - 9]).unwrap();
-        let (mut history, _interface) = folder.tables(&[], Some(2)).unwrap();
+        let (mut history, _interface) = folder.tables(&[], false, Some(2)).unwrap();
         history.append(&records[2]).unwrap();
         let steps: Vec<_> = read_history(&folder.history()).unwrap().iter().map(|record| record.step).collect();
         assert_eq!(steps, [1, 2, 3]);
@@ -218,7 +220,7 @@ mod tests {
     #[test]
     fn errors_name_file_line_and_column() {
         let folder = folder("errors");
-        let (mut history, _interface) = folder.tables(&[], None).unwrap();
+        let (mut history, _interface) = folder.tables(&[], false, None).unwrap();
         history.append(&synthetic::pass(5, 0.3)[0]).unwrap();
         let text = fs::read_to_string(folder.history()).unwrap().replace(",true,0.1,", ",maybe,0.1,");
         fs::write(folder.history(), text).unwrap();
