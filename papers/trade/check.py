@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
-"""Is the recommendation of `asperity trade` right?  python3 papers/trade/check.py ASPERITY SCENE TRADE_FOLDER OUT.csv [GRID.csv]
+"""Is the recommendation of `asperity trade` right?  python3 papers/trade/check.py ASPERITY SCENE TRADE_FOLDER OUT.csv GRID.csv
 
 Computes an exhaustive grid of settings of SCENE, each in a process of its own, against a reference of its own (NURBS 3, four times
 the elements and steps). For every target the settings that TRADE_FOLDER/trade.csv recommends (the cheapest whose bound is at most
 the target) are computed in the same way, and compared with the cheapest of the grid that meets the target. The error norm is
-written here a second time, from the words of trade.md. Standard library only.
+written here a second time, from the words of trade.md. GRID.csv is written once, with GRID.csv.json (the reference) beside it.
+TRADE_FOLDER may be `-`: the grid only. Standard library only.
 """
 import csv, itertools, json, math, os, subprocess, sys, tempfile
 
 TARGETS = [0.1, 0.05, 0.03, 0.01, 0.005]
 BASES = [("nurbs", 1), ("nurbs", 2), ("nurbs", 3), ("nurbs", 4), ("lagrange", 1), ("lagrange", 2)]
-SIZES = [0.5, 2 ** -0.5, 1.0, 2 ** 0.5, 2.0]
-STEPS = [0.5, 1.0, 2.0]
+SIZES = [0.5, 2 ** -0.5, 1.0, 2 ** 0.5]
+STEPS = [0.5, 1.0]
 CONTACTS = [("quadrature", "element"), ("quadrature", "segment"), ("nodal", "element")]
 QUANTITIES = ["fx", "fy", "mu_global"]
+REFERENCE = 4.0, 4.0  # elements, steps
 CHEAP, TRIES = 0.5, 3  # runs below so many seconds are timed so often
 
 
@@ -91,52 +93,70 @@ def under(scene, basis, size, steps, contact):
     return scene
 
 
+def given_scene(program, scene_file, folder):
+    """The scene with all defaults."""
+    given = os.path.join(folder, "given")
+    subprocess.run([program, "run", scene_file, "--out", given, "--quiet"], check=True)
+    with open(os.path.join(given, "run.json")) as file:
+        return json.load(file)["scene"]
+
+
+def compute_grid(program, scene, folder, path):
+    """Every setting of the grid, and the reference, into files."""
+    reference, _ = run(program, under(scene, ("nurbs", 3), *REFERENCE, ("quadrature", "element")), folder)
+    quantities = counting(scene)
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["basis", "elements", "steps", "sites", "integration", "error", "cpu_s"])
+        for basis, size, steps, contact in itertools.product(BASES, SIZES, STEPS, CONTACTS):
+            history, cpu = run(program, under(scene, basis, size, steps, contact), folder)
+            found = max(error(history, reference, q) for q in quantities) if history else math.nan
+            table.writerow(["%s %d" % basis, f"{size:.3g}", steps, *contact, f"{found:.3e}", f"{cpu:.3f}"])
+            file.flush()
+    with open(path + ".json", "w") as file:
+        json.dump(reference, file)
+
+
+def counting(scene):
+    """Quantities that are not prescribed."""
+    vertical = scene["drive"][0].get("y") or {}
+    return [q for q in QUANTITIES if q != "fy" or "force" not in vertical]
+
+
 def main():
-    program, scene_file, trade, out = sys.argv[1:5]
+    program, scene_file, trade, out, grid_file = sys.argv[1:6]
     program = os.path.abspath(program)
     with tempfile.TemporaryDirectory() as folder:
-        given = os.path.join(folder, "given")
-        subprocess.run([program, "run", scene_file, "--out", given, "--quiet"], check=True)
-        with open(os.path.join(given, "run.json")) as file:
-            scene = json.load(file)["scene"]
-        reference, _ = run(program, under(scene, ("nurbs", 3), 4.0, 4.0, ("quadrature", "element")), folder)
-        vertical = scene["drive"][0].get("y") or {}
-        quantities = [q for q in QUANTITIES if q != "fy" or "force" not in vertical]
-        worst = lambda history: max(error(history, reference, q) for q in quantities)
-        grid = []
-        for setting in itertools.product(BASES, SIZES, STEPS, CONTACTS):
-            history, cpu = run(program, under(scene, *setting), folder)
-            found = worst(history) if history else math.nan
-            grid.append((*setting, found, cpu))
-            print(setting, found, cpu, file=sys.stderr)
-        if len(sys.argv) > 5:
-            with open(sys.argv[5], "w", newline="") as file:
-                table = csv.writer(file)
-                table.writerow(["basis", "elements", "steps", "sites", "integration", "error", "cpu_s"])
-                for basis, size, steps, contact, found, cpu in grid:
-                    table.writerow(["%s %d" % basis, f"{size:.3g}", steps, *contact, f"{found:.3e}", f"{cpu:.3f}"])
+        scene = given_scene(program, scene_file, folder)
+        if not os.path.exists(grid_file + ".json"):
+            compute_grid(program, scene, folder, grid_file)
+        if trade == "-":
+            return
+        with open(grid_file + ".json") as file:
+            reference = json.load(file)
+        with open(grid_file) as file:
+            grid = [g for g in csv.DictReader(file) if g["error"] != "nan"]
         with open(os.path.join(trade, "trade.csv")) as file:
             points = [p for p in csv.DictReader(file) if p["role"] == "candidate" and p["bound"] != "nan"]
         with open(out, "w", newline="") as file:
             table = csv.writer(file)
             table.writerow(["target", "recommended", "error", "cpu_s", "met", "best_of_grid", "best_error", "best_cpu_s", "ratio"])
             for target in TARGETS:
-                best = min((g for g in grid if g[4] <= target), key=lambda g: g[5], default=None)
-                fit = min((p for p in points if float(p["bound"]) <= target), key=lambda p: float(p["cpu_s"]), default=None)
-                if fit is None:
-                    table.writerow([target, "not reached"])
-                    continue
-                with open(os.path.join(trade, fit["folder"], "run.json")) as run_json:
-                    history, cpu = run(program, json.load(run_json)["scene"], folder)
-                words = f"{fit['basis']}, elements x {float(fit['elements']):.2f}, grading x {fit['grading']}, {fit['steps']} steps"
-                words += ", " + fit["choices"] if fit["choices"] else ""
-                found = worst(history)
-                row = [target, words, f"{found:.2e}", f"{cpu:.3f}", found <= target]
+                cost = lambda row: float(row["cpu_s"])
+                best = min((g for g in grid if float(g["error"]) <= target), key=cost, default=None)
+                fit = min((p for p in points if float(p["bound"]) <= target), key=cost, default=None)
+                row = [target] + ["not reached"] + [""] * 3
+                if fit:
+                    with open(os.path.join(trade, fit["folder"], "run.json")) as run_json:
+                        history, cpu = run(program, json.load(run_json)["scene"], folder)
+                    found = max(error(history, reference, q) for q in counting(scene))
+                    words = f"{fit['basis']}, elements x {float(fit['elements']):.2f}, grading x {fit['grading']}, {fit['steps']} steps"
+                    words += "; " + fit["choices"] if fit["choices"] else ""
+                    row = [target, words, f"{found:.2e}", f"{cpu:.3f}", found <= target]
                 if best:
-                    name = "%s %d, elements x %.2f, steps x %g, %s, %s" % (*best[0], best[1], best[2], *best[3])
-                    row += [name, f"{best[4]:.2e}", f"{best[5]:.3f}", f"{cpu / best[5]:.2f}"]
+                    name = f"{best['basis']}, elements x {best['elements']}, steps x {best['steps']}, {best['sites']}, {best['integration']}"
+                    row += [name, best["error"], best["cpu_s"], f"{cpu / cost(best):.2f}" if fit else ""]
                 table.writerow(row)
-                file.flush()
 
 
 main()

@@ -14,13 +14,13 @@ use crate::scene::{self, Checkpoint, RunReport, Scene, SceneError};
 use crate::solve::Status;
 use crate::verify::Finding;
 
-/// Where a run begins.
+/// Where a run begins that was stopped before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Begin {
-    /// At time zero.
+pub(super) enum Start {
+    /// At its last checkpoint.
+    GoOn,
+    /// At the beginning, so that its cost is that of the whole.
     Anew,
-    /// At the checkpoint in its folder, if there is one.
-    WhereItStopped,
 }
 
 /// Computes a scene on this thread into the folder at `path`, and leaves its status there. Files that the scene names are
@@ -28,15 +28,17 @@ pub(super) enum Begin {
 pub(super) fn compute_scene(
     scene: impl FnOnce() -> Result<Scene, SceneError>,
     base_dir: &Path,
-    (path, begin): (&Path, Begin),
+    path: &Path,
+    start: Start,
     interrupt: &AtomicBool,
     watch: impl FnMut(&Record),
 ) -> PointStatus {
     let (clock, cpu) = (Instant::now(), ThreadTime::now());
+    let stopped = matches!(PointStatus::read(path).status, PointState::Interrupted | PointState::Running);
     let attempt = || {
         let run = RunFolder::create(path)?;
         PointStatus::plain(PointState::Running).write(path)?;
-        computed(scene, base_dir, (&run, begin), interrupt, watch)
+        computed(scene, base_dir, &run, stopped && start == Start::GoOn, interrupt, watch)
     };
     let over = catch_unwind(AssertUnwindSafe(attempt));
     let (status, reason) = match over {
@@ -55,7 +57,8 @@ pub(super) fn compute_scene(
 fn computed(
     scene: impl FnOnce() -> Result<Scene, SceneError>,
     base_dir: &Path,
-    (folder, begin): (&RunFolder, Begin),
+    folder: &RunFolder,
+    resume: bool,
     interrupt: &AtomicBool,
     watch: impl FnMut(&Record),
 ) -> Result<(PointState, String), OutputError> {
@@ -66,8 +69,7 @@ fn computed(
     match built {
         Ok((scene, model)) => {
             // a checkpoint that cannot be read costs the steps before it, no more
-            let load = || Checkpoint::load(folder, &scene, &model).ok().flatten();
-            let kept = if begin == Begin::WhereItStopped { load() } else { None };
+            let kept = resume.then(|| Checkpoint::load(folder, &scene, &model).ok().flatten()).flatten();
             let start = kept.unwrap_or_else(|| Checkpoint::start(&scene, &model));
             Ok(ending(&scene::resume(&scene, &model, folder, start, interrupt, watch)?))
         }

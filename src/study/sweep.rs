@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 
-use super::compute::{Begin, compute_scene};
-use super::{Point, PointState, PointStatus, Study, StudyFolder};
+use super::compute::{Start, compute_scene};
+use super::{Point, PointStatus, Study, StudyFolder};
 use crate::model::Record;
 
 /// How a sweep goes about its work.
@@ -80,7 +80,5 @@ pub fn compute(
     watch: impl FnMut(&Record),
 ) -> PointStatus {
     let scene = || study.scene(point.index).map(|(scene, _)| scene);
-    let stopped = matches!(folder.status(point).status, PointState::Interrupted | PointState::Running);
-    let begin = if stopped { Begin::WhereItStopped } else { Begin::Anew };
-    compute_scene(scene, study.base_dir(), (&folder.point(point), begin), interrupt, watch)
+    compute_scene(scene, study.base_dir(), &folder.point(point), Start::GoOn, interrupt, watch)
 }

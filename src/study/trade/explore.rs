@@ -39,7 +39,8 @@ pub(super) fn explore(
         match attempt(laboratory, wish, &next.setting)? {
             Some(point) if point >= known => {
                 judge(laboratory, found);
-                experience.learn(next.step, next.start, front(&found.costs()).contains(&point));
+                let useful = front(&found.costs()).contains(&point);
+                experience.learn(next.step, next.start, useful, found.points[point].status.cpu_s);
             }
             Some(_) => {}
             None => refused |= next.setting.changes(laboratory.trade).is_some(),
@@ -68,7 +69,13 @@ fn next(
     let costs = found.costs();
     let mut places = front(&costs);
     places.retain(|place| costs[*place].error < HOPELESS);
-    places.sort_by(|a, b| distance(found, wish.aim, *a).total_cmp(&distance(found, wish.aim, *b)));
+    // the smaller the sooner; for the whole front each half decade of errors gets its share of the effort
+    let order = |place: &usize| match (wish.aim, costs[*place]) {
+        (Aim::Front, cost) => experience.spent(cost.error),
+        (Aim::Error(target), cost) => (cost.error / target).ln().abs(),
+        (Aim::Budget(budget), cost) => (cost.cpu_s / budget).ln().abs(),
+    };
+    places.sort_by(|a, b| order(a).total_cmp(&order(b)));
     places.into_iter().find_map(|place| {
         let (from, start) = (&found.points[place].setting, costs[place].error);
         let fresh = |step: Move| {
@@ -78,16 +85,6 @@ fn next(
         };
         experience.hopeful(start).find_map(fresh)
     })
-}
-
-/// How far a setting is from what is aimed at; for the whole front cheap ones come first.
-fn distance(found: &Found, aim: Aim, point: usize) -> f64 {
-    let (cost, bound) = (found.points[point].status.cpu_s, found.bound(&found.points[point]));
-    match aim {
-        Aim::Front => cost,
-        Aim::Error(target) => (bound / target).ln().abs(),
-        Aim::Budget(budget) => (cost / budget).ln().abs(),
-    }
 }
 
 /// False for settings that are expected to cost more than the budget, or than one whose error cannot be told from zero.

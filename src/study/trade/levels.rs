@@ -3,7 +3,7 @@
 use super::Wish;
 use super::found::{Ending, Found, Stop, larger};
 use super::measure::{Laboratory, Measured, Role};
-use super::moves::BASES;
+use super::moves::{BASES, MOST_STEPS};
 use super::norm::{QUANTITIES, error};
 use super::reference::Estimate;
 use super::search::reasons;
@@ -19,24 +19,28 @@ pub(super) fn sized(basis: BasisSpec, elements: i32) -> Setting {
     Setting { basis: Some(basis), elements, ..Setting::default() }
 }
 
-/// The reference of a basis: finer than the finest by an octave, in space and in time.
+/// The reference of a basis: finer than the finest settings by an octave, in space and in time.
 pub(super) fn refined(basis: BasisSpec, finest: i32) -> Setting {
-    Setting { steps: 1, ..sized(basis, finest + 2) }
+    Setting { steps: MOST_STEPS + 1, ..sized(basis, finest + 2) }
 }
 
 /// Computes the reference, and judges all that was measured before.
 pub(super) fn refer(laboratory: &mut Laboratory, wish: &Wish, finest: i32) -> Result<Found, Stop> {
     let quantities = telling(&laboratory.points, &wish.quantities).map_err(Stop::NoReference)?;
-    for (basis, fine) in ranked(laboratory, &quantities, finest) {
+    for basis in ranked(laboratory, &quantities, finest) {
         let setting = refined(basis, finest);
         if laboratory.expected(&setting).is_none_or(|cost| cost > MOST * wish.effort) {
             continue;
         }
         let reference = laboratory.measure(&setting, Role::Reference, wish.effort)?;
         let Some(reference) = reference.filter(|k| laboratory.points[*k].done()) else { continue };
-        let coarse = Setting { steps: -1, ..sized(basis, finest - 2) };
-        let coarse = laboratory.measure(&coarse, Role::Candidate, wish.effort)?;
-        let coarse = coarse.filter(|k| laboratory.points[*k].done());
+        // the levels below it, each coarser by an octave in space and in time
+        let mut level = |below: i32| {
+            let setting = Setting { steps: MOST_STEPS + 1 - below, ..sized(basis, finest + 2 - 2 * below) };
+            let known = laboratory.measure(&setting, Role::Candidate, wish.effort)?;
+            Ok::<_, Stop>(known.filter(|k| laboratory.points[*k].done()))
+        };
+        let (Some(fine), coarse) = (level(1)?, level(2)?) else { continue };
         let estimate = |k: usize| {
             let between = |run, finer| difference(&laboratory.points, run, finer, &[k]);
             Estimate::new(between(fine, reference), coarse.map_or(f64::NAN, |coarse| between(coarse, fine)))
@@ -51,17 +55,17 @@ pub(super) fn refer(laboratory: &mut Laboratory, wish: &Wish, finest: i32) -> Re
     Err(Stop::NoReference(reasons(&laboratory.points)))
 }
 
-/// Bases with the number of their finest run, those first whose two finest sizes differ least.
-fn ranked(laboratory: &Laboratory, quantities: &[usize], finest: i32) -> Vec<(BasisSpec, usize)> {
+/// Bases, those first whose two finest sizes differ least.
+fn ranked(laboratory: &Laboratory, quantities: &[usize], finest: i32) -> Vec<BasisSpec> {
     let points = &laboratory.points;
     let level = |basis, elements| points.iter().position(|p| p.setting == sized(basis, elements) && p.done());
     let change = |basis: BasisSpec| {
         let (fine, coarse) = (level(basis, finest)?, level(basis, finest - 2)?);
-        Some((difference(points, coarse, fine, quantities), basis, fine))
+        Some((difference(points, coarse, fine, quantities), basis))
     };
-    let mut order: Vec<_> = BASES.into_iter().filter_map(change).filter(|(change, ..)| change.is_finite()).collect();
+    let mut order: Vec<_> = BASES.into_iter().filter_map(change).filter(|(change, _)| change.is_finite()).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    order.into_iter().map(|(_, basis, fine)| (basis, fine)).collect()
+    order.into_iter().map(|(_, basis)| basis).collect()
 }
 
 /// Largest error of one run against another.

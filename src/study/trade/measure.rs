@@ -13,7 +13,7 @@ use super::setting::{Change, Setting};
 use super::{Trade, memory};
 use crate::output::{OutputError, fingerprint};
 use crate::scene::{OutputSpec, Scene, SceneError};
-use crate::study::compute::{Begin, compute_scene};
+use crate::study::compute::{Start, compute_scene};
 use crate::study::point::folder_name;
 use crate::study::{PointState, PointStatus};
 
@@ -144,7 +144,7 @@ impl<'a> Laboratory<'a> {
     fn compute(&mut self, scene: &Result<Scene, SceneError>, path: &Path, limit: f64) -> Result<PointStatus, Stop> {
         if !self.warm {
             // the first run pays for cold caches: its figures are thrown away
-            compute_scene(|| scene.clone(), &self.trade.base_dir, (path, Begin::Anew), self.interrupt, |_| ());
+            compute_scene(|| scene.clone(), &self.trade.base_dir, path, Start::Anew, self.interrupt, |_| ());
             self.warm = true;
         }
         let (clock, exceeded) = (ThreadTime::now(), Cell::new(false));
@@ -152,7 +152,8 @@ impl<'a> Laboratory<'a> {
         let mut status = compute_scene(
             || scene.clone(),
             &self.trade.base_dir,
-            (path, Begin::Anew), // the cost is that of a whole run
+            path,
+            Start::Anew,
             self.interrupt,
             |_| {
                 (self.watch)(Event::Step);

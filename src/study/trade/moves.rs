@@ -13,8 +13,10 @@ pub const BASES: [BasisSpec; 6] = [
     BasisSpec::Lagrange { degree: 2 },
 ];
 
+/// Largest factor on the nominal steps of a scene, in octaves.
+pub(super) const MOST_STEPS: i32 = 1;
 /// Factors on the nominal steps of a scene, in octaves.
-const STEPS: [i32; 2] = [-1, 1];
+const STEPS: [i32; 2] = [-1, MOST_STEPS];
 /// Factors on the grading of a scene, in octaves.
 const GRADING: [i32; 2] = [-2, 3];
 /// Failures after which a kind of change is not tried any more.
@@ -77,7 +79,11 @@ impl Move {
 
 /// Which moves have been of use so far, apart for each half decade of the error they started from: one that failed twice in a row is
 /// given up there, and tried once in each of the others. Sizes and steps are always tried.
-pub(super) struct Experience(Vec<Tried>);
+pub(super) struct Experience {
+    moves: Vec<Tried>,
+    /// Half decades with the CPU time in seconds that moves from there took.
+    spent: Vec<(i32, f64)>,
+}
 
 /// How often a move failed since it was last of use.
 struct Tried {
@@ -90,7 +96,8 @@ struct Tried {
 impl Experience {
     /// Nothing tried yet.
     pub fn new() -> Self {
-        Self(Move::all().into_iter().map(|step| Tried { step, strikes: 0, local: vec![] }).collect())
+        let tried = |step| Tried { step, strikes: 0, local: vec![] };
+        Self { moves: Move::all().into_iter().map(tried).collect(), spent: vec![] }
     }
 
     /// Moves that are still worth trying from a setting of this error.
@@ -101,13 +108,20 @@ impl Experience {
             let allowed = if tried.strikes < STRIKES { STRIKES } else { 1 };
             matches!(tried.step, Move::Elements(_) | Move::Steps(_)) || local < allowed
         };
-        self.0.iter().filter(hopeful).map(|tried| tried.step)
+        self.moves.iter().filter(hopeful).map(|tried| tried.step)
     }
 
-    /// Notes how a move from a setting of this error went.
-    pub fn learn(&mut self, tried: Move, error: f64, useful: bool) {
+    /// CPU time in seconds that moves from settings of about this error took so far.
+    pub fn spent(&self, error: f64) -> f64 {
         let here = half_decade(error);
-        for tried in self.0.iter_mut().filter(|known| known.step == tried) {
+        self.spent.iter().filter(|(place, _)| *place == here).map(|(_, spent)| spent).sum()
+    }
+
+    /// Notes how a move from a setting of this error went, and what it took.
+    pub fn learn(&mut self, tried: Move, error: f64, useful: bool, cpu_s: f64) {
+        let here = half_decade(error);
+        self.spent.push((here, cpu_s));
+        for tried in self.moves.iter_mut().filter(|known| known.step == tried) {
             tried.strikes = if useful { 0 } else { tried.strikes + 1 };
             match tried.local.iter_mut().find(|(place, _)| *place == here) {
                 Some((_, strikes)) => *strikes = if useful { 0 } else { *strikes + 1 },

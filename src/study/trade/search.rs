@@ -19,6 +19,8 @@ pub(super) const RUN_SHARE: f64 = 0.12;
 const FINEST: [i32; 3] = [2, 0, -2];
 /// Sizes below the finest one at which all bases are compared: octaves.
 const CROSSED: [i32; 3] = [-4, -2, 0];
+/// Basis by which the reference is planned.
+const PLANNED: BasisSpec = BasisSpec::Nurbs { degree: 2 };
 /// Coarsest size, and that of the first run.
 pub(super) const COARSEST: i32 = -4;
 
@@ -34,8 +36,13 @@ pub fn search(
     watch: &mut dyn FnMut(Event),
 ) -> Result<Found, Stop> {
     let mut laboratory = Laboratory::new(trade, root, interrupt, watch);
-    let finest = finest(&mut laboratory, wish)?;
+    let mut finest = finest(&mut laboratory, wish)?;
     cross(&mut laboratory, wish, finest)?;
+    // what the coarsest run foretold may have been too much
+    while finest < FINEST[0] && affordable(&laboratory, wish, finest + 2) {
+        finest += 2;
+        cross(&mut laboratory, wish, finest)?;
+    }
     let mut found = refer(&mut laboratory, wish, finest)?;
     let ending = explore(&mut laboratory, &mut found, wish, finest);
     found.ending = match ending {
@@ -49,21 +56,28 @@ pub fn search(
 
 /// The finest size whose refinement can be afforded.
 fn finest(laboratory: &mut Laboratory, wish: &Wish) -> Result<i32, Stop> {
-    let basis = BasisSpec::Nurbs { degree: 2 };
     for elements in COARSEST..=0 {
-        let first = laboratory.measure(&sized(basis, elements), Role::Candidate, f64::INFINITY)?;
+        let first = laboratory.measure(&sized(PLANNED, elements), Role::Candidate, f64::INFINITY)?;
         if first.is_some_and(|k| laboratory.points[k].done()) {
             break;
         }
     }
-    let expected = |finest: i32| laboratory.expected(&refined(basis, finest)).unwrap_or(f64::INFINITY);
-    let affordable = |finest: &i32| expected(*finest) <= REFERENCE_SHARE * wish.effort;
-    FINEST.into_iter().find(affordable).ok_or_else(|| match expected(FINEST[FINEST.len() - 1]) {
-        cost if cost.is_finite() => Stop::TooLittle(cost),
-        _ => Stop::NoReference(reasons(&laboratory.points)),
+    let least = FINEST[FINEST.len() - 1];
+    FINEST.into_iter().find(|finest| affordable(laboratory, wish, *finest)).ok_or_else(|| {
+        match laboratory.expected(&refined(PLANNED, least)) {
+            Some(cost) => Stop::TooLittle(cost),
+            None => Stop::NoReference(reasons(&laboratory.points)),
+        }
     })
 }
 
+/// Whether the reference above this finest size is expected to stay within its share.
+fn affordable(laboratory: &Laboratory, wish: &Wish, finest: i32) -> bool {
+    let expected = laboratory.expected(&refined(PLANNED, finest));
+    expected.is_some_and(|cost| cost <= REFERENCE_SHARE * wish.effort)
+}
+
+/// Why runs failed, each reason once.
 pub(super) fn reasons(points: &[Measured]) -> String {
     let mut said: Vec<&str> = points.iter().map(|point| point.status.reason.as_str()).collect();
     said.dedup();

@@ -14,6 +14,9 @@ use crate::study::axis::plain;
 /// Least nominal steps of a setting.
 const FEWEST_STEPS: usize = 2;
 
+/// Most integration points of a scene.
+const MOST_POINTS: usize = 32;
+
 /// Numerical choices relative to those of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Setting {
@@ -38,8 +41,8 @@ pub enum Choice {
     SmallerR,
     /// Twice the augmentation.
     LargerR,
-    /// Multipliers of the next lower stable degree.
-    LowerMultiplier,
+    /// Multipliers of another stable degree.
+    Multiplier,
     /// `ray` instead of `closest`, or the reverse.
     Projection,
     /// `segment` instead of `element`, or the reverse.
@@ -61,7 +64,7 @@ impl Choice {
     pub const ALL: [Self; 11] = [
         Self::Sites,
         Self::Integration,
-        Self::LowerMultiplier,
+        Self::Multiplier,
         Self::TwoPoints,
         Self::SmallerR,
         Self::LargerR,
@@ -201,16 +204,17 @@ impl Setting {
                 let factor = if choice == Choice::SmallerR { 0.5 } else { 2.0 };
                 (self.quadrature(numerics)).then(|| everywhere("r", Value::Float(factor * numerics.r)))?
             }
-            Choice::LowerMultiplier => {
-                let degree = lower_multiplier(self.basis_in(scene)).filter(|_| numerics.multiplier_degree.is_none())?;
-                everywhere("multiplier_degree", Value::Integer(degree as i64))
+            Choice::Multiplier => {
+                everywhere("multiplier_degree", Value::Integer(self.other_multiplier(numerics, scene)? as i64))
             }
             Choice::Projection => everywhere("projection", Value::from(self.other_projection(numerics, trade))),
-            Choice::Integration => everywhere("integration", Value::from(self.other_integration(numerics, trade))),
+            Choice::Integration => everywhere("integration", Value::from(other_integration(numerics))),
             Choice::TwoPoints => everywhere("points", Value::Integer(2)),
             Choice::TwicePoints => {
-                let usual = numerics.points.unwrap_or((self.basis_in(scene).degree() + 1).max(3));
-                everywhere("points", Value::Integer(2 * usual as i64))
+                let quadratic = self.basis_in(scene) == BasisSpec::Lagrange { degree: 2 };
+                let chosen = (self.basis_in(scene).degree() + 1).max(3) * if quadratic { 2 } else { 1 };
+                let usual = numerics.points.unwrap_or(chosen);
+                everywhere("points", Value::Integer((2 * usual).min(MOST_POINTS) as i64))
             }
             Choice::Solver if scene.solution.solver == Solver::Condensed => solution("solver", "sparse-lu"),
             Choice::Solver => solution("solver", "condensed"),
@@ -224,32 +228,39 @@ impl Setting {
         (numerics.sites == Sites::Quadrature) != self.choices.contains(&Choice::Sites)
     }
 
-    /// Whether the curves of the mortar side have corners, and their degree.
-    fn mortar(&self, trade: &Trade) -> (bool, usize) {
+    /// Whether the curves of the mortar side have corners.
+    fn cornered(&self, trade: &Trade) -> bool {
         let scene = &trade.scene;
         let body = scene.contact.first().and_then(|contact| scene.body.get(&contact.mortar.body));
         let basis = match body {
             Some(body) if body.rigid => body.basis,
             _ => self.basis_in(scene),
         };
-        (trade.cornered || !matches!(basis, BasisSpec::Nurbs { degree: 2.. }), basis.degree())
+        trade.cornered || !matches!(basis, BasisSpec::Nurbs { degree: 2.. })
     }
 
     fn other_projection(&self, numerics: &Numerics, trade: &Trade) -> &'static str {
         match numerics.projection {
             Projection::Ray => "closest",
-            Projection::Auto if self.mortar(trade).0 => "closest",
+            Projection::Auto if self.cornered(trade) => "closest",
             Projection::Closest | Projection::Auto => "ray",
         }
     }
 
-    fn other_integration(&self, numerics: &Numerics, trade: &Trade) -> &'static str {
-        match numerics.integration {
-            Integration::Segment => "element",
-            Integration::Auto if matches!(self.mortar(trade), (true, 2..)) => "element",
-            Integration::Element | Integration::Auto => "segment",
+    /// A stable degree of multipliers that the program would not choose: the next lower one; of quadratic Lagrange elements, which
+    /// choose 1 unless they are cut into segments, the other of 1 and 2.
+    fn other_multiplier(&self, numerics: &Numerics, scene: &Scene) -> Option<usize> {
+        let segments = (numerics.integration == Integration::Segment) != self.choices.contains(&Choice::Integration);
+        match self.basis_in(scene) {
+            _ if numerics.multiplier_degree.is_some() => None,
+            BasisSpec::Lagrange { degree: 2 } => Some(if segments { 1 } else { 2 }),
+            basis => basis.degree().checked_sub(2),
         }
     }
+}
+
+fn other_integration(numerics: &Numerics) -> &'static str {
+    if numerics.integration == Integration::Segment { "element" } else { "segment" }
 }
 
 /// A number of elements under a factor of so many half octaves, at least 1.
@@ -261,18 +272,10 @@ fn other_sites(numerics: &Numerics) -> &'static str {
     if numerics.sites == Sites::Quadrature { "nodal" } else { "quadrature" }
 }
 
-/// The highest stable degree of multipliers below that of the basis.
-fn lower_multiplier(basis: BasisSpec) -> Option<usize> {
-    match basis {
-        BasisSpec::Lagrange { degree: 2 } => Some(1),
-        basis => basis.degree().checked_sub(2),
-    }
-}
-
 fn other_material((name, material): (&String, &MaterialSpec)) -> Change {
     let other = match material {
         MaterialSpec::NeoHookean { .. } => "linear-elastic",
-        MaterialSpec::SaintVenantKirchhoff { .. } | MaterialSpec::LinearElastic { .. } => "neo-hookean",
+        MaterialSpec::LinearElastic { .. } | MaterialSpec::SaintVenantKirchhoff { .. } => "neo-hookean",
     };
     (KeyPath::of("material").at(name).at("type"), Value::from(other))
 }
