@@ -15,6 +15,8 @@ use crate::geometry::BasisSpec;
 
 /// Share of the effort that any other run may take.
 pub(super) const RUN_SHARE: f64 = 0.12;
+/// A run that takes so many times what was expected is given up.
+const PATIENCE: f64 = 10.0;
 /// Finest sizes that are looked at (half octaves): the first whose reference can be afforded.
 const FINEST: [i32; 3] = [2, 0, -2];
 /// Sizes below the finest one at which all bases are compared: octaves.
@@ -100,8 +102,11 @@ fn cross(laboratory: &mut Laboratory, wish: &Wish, finest: i32) -> Result<(), St
 /// Measures a candidate if it is not expected to take too much; the number of its point.
 pub(super) fn attempt(laboratory: &mut Laboratory, wish: &Wish, setting: &Setting) -> Result<Option<usize>, Stop> {
     let most = (RUN_SHARE * wish.effort).min(wish.effort - laboratory.spent);
-    match laboratory.expected(setting) {
+    let expected = laboratory.expected(setting);
+    let patience = expected.map_or(f64::INFINITY, |cost| PATIENCE * cost);
+    let limit = patience.clamp(0.1 * RUN_SHARE * wish.effort, 2.0 * RUN_SHARE * wish.effort);
+    match expected {
         Some(cost) if cost > most => Ok(None),
-        _ => laboratory.measure(setting, Role::Candidate, 2.0 * RUN_SHARE * wish.effort),
+        _ => laboratory.measure(setting, Role::Candidate, limit),
     }
 }
