@@ -4,6 +4,7 @@ mod elements;
 mod lumped;
 mod material;
 mod projected;
+mod recovery;
 mod stiffness;
 mod volume;
 
@@ -11,4 +12,5 @@ pub use elements::{BulkForces, Elements};
 pub use lumped::lumped_areas;
 pub use material::{Dilatation, LinearElastic, Material, NeoHookean, StressResponse, lame};
 pub use projected::Tau;
+pub use recovery::{Recovery, StressError};
 pub use volume::{VolumeSpace, confinement};
