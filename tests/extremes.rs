@@ -12,3 +12,5 @@ mod numbers;
 mod projection;
 #[path = "extremes/rates.rs"]
 mod rates;
+#[path = "extremes/steep.rs"]
+mod steep;

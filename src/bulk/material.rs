@@ -51,6 +51,10 @@ pub trait Material: Debug + Send + Sync {
     fn small_strain(&self) -> bool {
         false
     }
+    /// The same material under the other strain measure, small for finite and finite for small; `None` where there is none.
+    fn other_strain_measure(&self) -> Option<Box<dyn Material>> {
+        None
+    }
     /// Name in the scene.
     fn name(&self) -> &'static str;
 
@@ -162,6 +166,11 @@ impl Material for NeoHookean {
         self.poissons_ratio
     }
 
+    fn other_strain_measure(&self) -> Option<Box<dyn Material>> {
+        let Self { youngs_modulus, poissons_ratio } = *self;
+        Some(Box::new(LinearElastic { youngs_modulus, poissons_ratio }))
+    }
+
     fn name(&self) -> &'static str {
         "neo-hookean"
     }
@@ -207,6 +216,11 @@ impl Material for LinearElastic {
 
     fn small_strain(&self) -> bool {
         true
+    }
+
+    fn other_strain_measure(&self) -> Option<Box<dyn Material>> {
+        let Self { youngs_modulus, poissons_ratio } = *self;
+        Some(Box::new(NeoHookean { youngs_modulus, poissons_ratio }))
     }
 
     fn name(&self) -> &'static str {

@@ -40,7 +40,7 @@ pub fn run(arguments: &RunArguments, certify: bool) -> Result<Exit, Failure> {
     let report = scene::resume(&scene, &model, &folder, start, &interrupt, |record| progress.step(record));
     progress.end();
     let again = command(arguments, &out);
-    let RunReport { outcome, findings, certified } = report.map_err(|error| {
+    let RunReport { outcome, findings, certified, estimate } = report.map_err(|error| {
         Failure::internal(format!(
             "{error}\n  = help: the steps before are kept; once this is put right, go on by\n    {again}"
         ))
@@ -53,6 +53,9 @@ pub fn run(arguments: &RunArguments, certify: bool) -> Result<Exit, Failure> {
         let state = scene::status_name(&outcome.status);
         let (steps, iterations, cuts) = (outcome.steps, outcome.iterations, outcome.cuts);
         say(&format!("{state}: {steps} steps, {iterations} iterations, {cuts} cuts; results in {}\n", out.display()))?;
+        say(&format!("{estimate}\n"))?;
+        estimate.warning(&model).iter().for_each(warn);
+        estimate.advice(&model).iter().for_each(note);
         if let Status::Interrupted { .. } = outcome.status {
             note(format!("the checkpoint is kept; go on by\n  {again}"));
         }

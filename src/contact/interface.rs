@@ -34,6 +34,23 @@ pub enum Integration {
     Segment,
 }
 
+/// Numerical choices of a pair, all resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numerics {
+    /// Where the conditions hold.
+    pub sites: Sites,
+    /// How partners are found.
+    pub projection: Projection,
+    /// How the edge is cut.
+    pub integration: Integration,
+    /// Gauss points per element or segment.
+    pub points: usize,
+    /// Augmentation of the pressure in units of `E/h`.
+    pub r: f64,
+    /// Augmentation of the traction in units of `E/h`.
+    pub r_tangential: f64,
+}
+
 /// Derivative that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tangent {

@@ -2,7 +2,6 @@
 
 mod assembly;
 mod complementarity;
-mod eased;
 mod integration;
 mod interface;
 mod kinematics;
@@ -18,9 +17,9 @@ mod start;
 pub use complementarity::{SiteAnswer, SiteInput, complementarity};
 pub use interface::{
     Configuration, ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial,
-    Projection, SiteMemory, SiteRecord, Sites, Tangent,
+    Numerics, Projection, SiteMemory, SiteRecord, Sites, Tangent,
 };
 pub use kinematics::{Frame, Orientation, SLOTS, SlotMatrix, Slots};
 pub use loaded::{LoadedInterface, SiteKinematics, SiteLoad, SiteRow};
-pub use mortar::{Mortar, Numerics};
+pub use mortar::Mortar;
 pub use projection::{Partner, Seeker, Target};

@@ -22,30 +22,13 @@ use super::complementarity::{SiteAnswer, SiteInput, complementarity};
 use super::integration::{EdgeFunctions, QuadraturePoint, mortar_cuts};
 use super::interface::{
     Configuration, ContactDiscretization, ContactStatus, Integration, InterfaceForces, InterfaceStart, InterfaceTrial,
-    Projection, SiteMemory, Sites, Tangent,
+    Numerics, SiteMemory, Tangent,
 };
 use super::kinematics::Orientation;
 use super::point::{Curves, PointState, seeker};
 use super::projection::Target;
 use super::sites::{Site, SiteState, group, recall};
 use super::start::{Partners, StartPartners};
-
-/// Numerical choices of a pair, all resolved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numerics {
-    /// Where the conditions hold.
-    pub sites: Sites,
-    /// How partners are found.
-    pub projection: Projection,
-    /// How the edge is cut.
-    pub integration: Integration,
-    /// Gauss points per element or segment.
-    pub points: usize,
-    /// Augmentation of the pressure in units of `E/h`.
-    pub r: f64,
-    /// Augmentation of the traction in units of `E/h`.
-    pub r_tangential: f64,
-}
 
 /// A mortar pair. See the module documentation.
 #[derive(Clone, Debug)]
@@ -55,7 +38,7 @@ pub struct Mortar {
     multiplier: Option<Arc<dyn Basis>>,
     law: Option<Arc<dyn FrictionLaw>>,
     variables: Vec<f64>,
-    pub(super) numerics: Numerics,
+    numerics: Numerics,
     orientation: Orientation,
     rule: GaussRule,
     path_rule: GaussRule,
@@ -69,6 +52,14 @@ pub struct Mortar {
 }
 
 impl Mortar {
+    /// The same pair with its augmentations taken to a power: `1` leaves them, `0` makes them `E/h`.
+    pub fn eased(&self, power: f64) -> Self {
+        let mut eased = self.clone();
+        let numerics = &mut eased.numerics;
+        (numerics.r, numerics.r_tangential) = (numerics.r.powf(power), numerics.r_tangential.powf(power));
+        eased
+    }
+
     /// A pair of curves under a law. `modulus` is the stress scale `E` of the softer body; `multiplier` a basis on the
     /// spans of the nonmortar curve, by default the functions of the curve itself.
     pub fn new(

@@ -120,12 +120,18 @@ pub(super) fn bulk(model: &Model, u: &[Point], step: Option<f64>) -> Option<Bulk
 }
 
 /// Longest step that the laws of all pairs and viscosity accept at the end of the step found, and who asks; infinite without opinion.
-pub fn suggested_step(model: &Model, start: &State, end: &State, found: &Evaluation) -> (f64, &'static str) {
+/// Viscosity asks for accuracy only, so for no step below `shortest`.
+pub fn suggested_step(
+    model: &Model,
+    [start, end]: [&State; 2],
+    found: &Evaluation,
+    shortest: f64,
+) -> (f64, &'static str) {
     let dt = end.time - start.time;
     let pairs = model.pairs.iter().zip(&start.pairs).zip(&found.interfaces);
     let laws = pairs.map(|((pair, old), found)| pair.contact.suggested_step(&old.sites, found, dt));
     let law = laws.fold(f64::INFINITY, f64::min);
-    let viscous = model.viscosity.as_ref().map_or(f64::INFINITY, |v| v.suggested_step(start, end, found));
+    let viscous = model.viscosity.as_ref().map_or(f64::INFINITY, |v| v.suggested_step(start, end, found).max(shortest));
     if viscous < law { (viscous, "viscosity") } else { (law, "the friction law") }
 }
 

@@ -12,7 +12,7 @@ use crate::math::{SolverMemory, checksum};
 use crate::model::{Model, PairState, State};
 use crate::output::{OutputError, RunFolder, checkpoint};
 use crate::solve::{Outcome, StepReport};
-use crate::verify::{Audit, Expectations, Finding};
+use crate::verify::{Audit, Estimate, Estimator, Expectations, Finding};
 
 /// Differences that are listed; the rest is counted.
 const LISTED: usize = 8;
@@ -52,6 +52,7 @@ pub struct Checkpoint {
     pub(super) outcome: Outcome,
     pub(super) solver: SolverMemory,
     audit: Audit,
+    estimator: Estimator,
 }
 
 impl Checkpoint {
@@ -66,6 +67,7 @@ impl Checkpoint {
             outcome: Outcome::at(State::initial(model)),
             solver: SolverMemory::default(),
             audit: Audit::new(Expectations::of(model)),
+            estimator: Estimator::new(model),
         }
     }
 
@@ -116,13 +118,19 @@ impl Checkpoint {
         self.audit.findings()
     }
 
+    /// How accurate all steps so far are.
+    pub fn estimate(&self) -> Estimate {
+        self.estimator.estimate()
+    }
+
     /// Moves on to the end of another step, `wall_s` seconds after the beginning.
-    pub(super) fn take(&mut self, report: &StepReport, wall_s: f64) {
+    pub(super) fn take(&mut self, model: &Model, report: &StepReport, wall_s: f64) {
         self.step = report.record.step;
         self.wall_s = wall_s;
         self.outcome.clone_from(report.outcome);
         self.solver = report.solver.memory();
         self.audit.take(&report.record);
+        self.estimator.take(model, &report.record, report.state, report.evaluation);
     }
 
     /// Writes it, with `done` where everything else is written too; with `sync` to the disk itself.

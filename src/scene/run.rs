@@ -13,7 +13,7 @@ use crate::output::tables::{CertifyRow, write_events};
 use crate::output::{OutputError, RunFolder, checkpoint};
 use crate::solve::{Control, Outcome, Recall, Status, Tools, Ways, proceed};
 use crate::verify::conic::{Companion, Stage};
-use crate::verify::{self, Finding};
+use crate::verify::{self, Estimate, Finding};
 
 use super::archive::Archive;
 use super::certify::{self, Certifier};
@@ -35,6 +35,8 @@ pub struct RunReport {
     pub findings: Vec<Finding>,
     /// Accepted steps that were certified.
     pub certified: Vec<CertifyRow>,
+    /// How accurate the forces are.
+    pub estimate: Estimate,
 }
 
 /// The nominal steps of a scene.
@@ -99,7 +101,7 @@ pub fn resume(
         recorder.step(&report)?;
         archive.step(report.record.step, report.state)?;
         certifier.take(report.record.step, fresh.take())?;
-        at.take(&report, wall_s());
+        at.take(model, &report, wall_s());
         let sync = synced.elapsed() >= SYNC_EVERY;
         if sync {
             recorder.sync()?;
@@ -117,15 +119,16 @@ pub fn resume(
     certifier.draw(scene)?;
     let mut findings = at.findings();
     findings.extend(certifier.findings());
-    let report = RunReport { outcome, findings, certified: certifier.rows };
+    let report = RunReport { outcome, findings, certified: certifier.rows, estimate: at.estimate() };
+    warnings.extend(report.estimate.warning(model));
     warnings.extend(report.findings.iter().filter(|finding| finding.warns()).map(Finding::to_string));
-    let result = conclusion(&report, &solver.counters(), at.step(), wall_s());
+    let result = conclusion(model, &report, &solver.counters(), at.step(), wall_s());
     folder.write_run(&summary(scene, model, &warnings, result))?;
     at.write(folder, report.outcome.status == Status::Done, true)?;
     Ok(report)
 }
 
-fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64) -> Value {
+fn conclusion(model: &Model, report: &RunReport, solver: &Counters, reached: usize, wall_s: f64) -> Value {
     let outcome = &report.outcome;
     json!({
         "status": status_name(&outcome.status),
@@ -147,6 +150,8 @@ fn conclusion(report: &RunReport, solver: &Counters, reached: usize, wall_s: f64
             "passed": !report.findings.iter().any(Finding::failed),
             "checks": report.findings,
         },
+        "estimated_error": report.estimate,
+        "advice": report.estimate.advice(model),
         "wall_s": wall_s,
     })
 }

@@ -150,7 +150,7 @@ impl Advance<'_, '_> {
         self.tried = step.tried;
         let done = found.or_else(|failure| self.rescue(next, failure))?;
         let (start, dt) = (&self.outcome.state, next - self.outcome.state.time);
-        let (law, by) = suggested_step(self.model, start, &done.state, &done.evaluation);
+        let (law, by) = suggested_step(self.model, [start, &done.state], &done.evaluation, self.smallest);
         if law < VETO * dt {
             return Err(StepFailure::Vetoed { taken: dt, step: law, by });
         }

@@ -28,16 +28,16 @@ const FAINT: f64 = 1e-3;
 pub const FINEST: f64 = 0.125;
 
 /// Slip in a step, in elements, that is aimed at, and beyond which a step is repeated.
-const SLIP: [f64; 2] = [1.5, 3.0];
+const SLIP: [f64; 2] = [2.0, 3.0];
 
 /// Longest step that keeps the slip within what is aimed at, going on at the rate of the step found; infinite where nothing slips.
 pub fn pace(found: &NewtonReport, dt: f64) -> f64 {
     dt * SLIP[0] / slip(found)
 }
 
-/// Largest slip of a site in contact, in elements.
+/// Largest slip of a site that rubs, in elements.
 fn slip(found: &NewtonReport) -> f64 {
-    let closed = sites(found).filter(|site| site.status != ContactStatus::Open);
+    let closed = sites(found).filter(|site| site.status != ContactStatus::Open && site.traction != 0.0);
     closed.fold(0.0, |m, site| m.max(site.slip.abs() / site.element))
 }
 

@@ -41,13 +41,13 @@ pub enum Stop {
 pub struct Found {
     /// All settings, in the order in which they were measured.
     pub points: Vec<Measured>,
-    /// The quantities whose errors count, as numbers into [`QUANTITIES`].
+    /// The quantities whose errors count, as numbers into [`QUANTITIES`](super::norm::QUANTITIES).
     pub quantities: Vec<usize>,
     /// Number of the scene as it is, where it was measured.
     pub given: Option<usize>,
     /// Number of the reference.
     pub reference: usize,
-    /// Its own error, for each of [`QUANTITIES`].
+    /// Its own error, for each of [`QUANTITIES`](super::norm::QUANTITIES).
     pub estimates: Vec<Estimate>,
     /// CPU time of all runs in seconds.
     pub spent: f64,
