@@ -39,7 +39,7 @@ const CASES: [Case; 15] = [
     Case("examples/expression_law", &[], &[1.0], 3.0),
     Case("papers/peers/nurbs", LAGRANGE_2, &[1.0, 2.0], 4.0),
     Case("papers/peers/nurbs", RUBBER, &[1.0, 2.0], 4.0),
-    Case("papers/peers/nurbs", &["contact.0.numerics.sites=nodal"], &[1.0, 2.0], 4.0),
+    Case("papers/peers/nurbs", &["contact.0.numerics.sites=\"nodal\""], &[1.0, 2.0], 4.0),
 ];
 
 /// A run with its estimate and the share of the time that this took.
