@@ -99,7 +99,7 @@ impl Estimator {
             return;
         }
         self.touching += 1;
-        if self.touching % self.stride == 0 {
+        if self.touching.is_multiple_of(self.stride) {
             self.sample(model, state, evaluation, size);
         }
     }
@@ -116,7 +116,7 @@ impl Estimator {
         }
         self.samples += 1;
         self.measured += self.stride;
-        self.stride *= if self.samples % ENOUGH == 0 { 2 } else { 1 };
+        self.stride *= if self.samples.is_multiple_of(ENOUGH) { 2 } else { 1 };
         self.strain = self.strain.max(found.strain);
         if evaluation.strain_energy > self.energies[0] {
             self.energies = [evaluation.strain_energy, other_energy(model, state).unwrap_or(f64::NAN)];
